@@ -281,3 +281,19 @@ fn the_page_of_stiffness_says_what_the_stiffness_is() {
         "{banner}"
     );
 }
+
+/// Of designs of other sizes each has its drawing, and the profiles are laid over one another where they touch the inner race.
+#[test]
+fn designs_of_other_sizes_are_drawn_each_and_laid_at_first_contact() {
+    let folder = Folder::new();
+    let page = folder.path("sizes.html");
+    run(&["compare", MULTI, "designs/series-833-small.toml", "--report", &page]);
+    let html = is_self_contained(&page);
+    for words in ["Drawing of A, ", "Drawing of B, ", "touch the inner race of B at the same point"] {
+        assert!(html.contains(words), "{words}");
+    }
+    let after = folder.changed(MULTI, &[("peak_torque_nm = 110.0", "peak_torque_nm = 100.0")]);
+    run(&["compare", MULTI, &after, "--report", &page, "--force"]);
+    let html = is_self_contained(&page);
+    assert!(!html.contains("Drawing of A, ") && html.contains("Drawing of B, "));
+}

@@ -350,3 +350,53 @@ fn wishes_that_cannot_be_are_refused_in_words() {
     let wanted = later.check().unwrap();
     assert!((wanted.overrun_rad_s[1] - wanted.lift_off_rad_s.unwrap()).abs() < 1e-9);
 }
+
+/// A purpose that keeps contact keeps it at the speed that somebody names for its outer race; one that does not, or that is told a speed, does not.
+#[test]
+fn contact_is_kept_at_the_outer_speed_that_is_asked_for() {
+    let rad_s = |rpm: f64| rpm * PI / 30.0;
+    let kept = |name: &str, outer: Option<f64>, keep: Option<f64>| {
+        let of = |rpm: Option<f64>| rpm.map(rad_s);
+        let wish = Wish {
+            purpose: purpose(name),
+            outer_rad_s: of(outer),
+            keep_contact_rad_s: of(keep),
+            ..wish(40.0, 1000.0)
+        };
+        let kept = wish.requirements();
+        (kept.keep_contact_rad_s.map(|w| (w * 30.0 / PI).round()), kept.contact_from[0])
+    };
+    assert_eq!(kept("two-speed", None, None), (Some(2000.0), "guess: the lower gear"));
+    assert_eq!(kept("two-speed", Some(6000.0), None), (Some(6000.0), "the outer race in overrun"));
+    assert_eq!(kept("two-speed", Some(1000.0), None).0, Some(2000.0));
+    assert_eq!(kept("two-speed", Some(6000.0), Some(2500.0)), (Some(2500.0), "asked for"));
+    assert_eq!(kept("starter", Some(1200.0), None).0, Some(250.0));
+    assert_eq!(kept("backstop", Some(100.0), None).0, None);
+}
+
+/// What nobody said of the inertias is listed, what is shown and broken is told, and what rests on a guess says so.
+#[test]
+fn guessed_inertias_and_broken_shown_rows_are_told() {
+    let folder = Folder::new();
+    let path = folder.path("idx.toml");
+    let new = run(&["new", "--for", "indexing", "--bore", "15", "--torque", "20", "-o", &path]);
+    let said = stdout(&new);
+    let taken = said.lines().find(|l| l.contains("turns with inner race")).unwrap();
+    assert!(taken.contains("kg m²") && taken.contains("guess") && taken.contains("feed"), "{taken}");
+    assert!(said.contains("turns with outer race"), "{said}");
+    let broken = said.lines().find(|l| l.starts_with("Shown only, and broken")).unwrap();
+    assert!(broken.contains("contact:engage") && broken.contains("--scenario engage"), "{broken}");
+    let verdict = |arguments: &[&str]| {
+        let output =
+            run(&[&["feed", &path, "--stroke", "30", "--frequency", "10", "--json"], arguments].concat());
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()["verdict"]
+            .as_str()
+            .unwrap()
+            .to_owned()
+    };
+    let guessed = verdict(&[]);
+    assert!(guessed.contains("a guess of the file") && guessed.contains("--inertia"), "{guessed}");
+    assert!(!verdict(&["--inertia", "0.0001"]).contains("guess"));
+    let slip = stdout(&run(&["reengage", &path, "--outer-free", "--paths", "0.1"]));
+    assert!(slip.contains("The outer race turns as a bare ring"), "{slip}");
+}

@@ -1,5 +1,6 @@
 //! What an indexing drive feeds with each stroke, over frequency, and where it ends.
 
+use super::inertia::{InertiaFrom, inertia_from};
 use super::left_out::{LeftOut, left_out_of};
 use super::reengagement::peak_torque_borne;
 use super::{Finding, Said};
@@ -237,6 +238,25 @@ impl FeedAnswer<'_> {
         }
     }
 
+    /// The race that is fed.
+    fn fed_race(&self) -> &'static str {
+        if self.case.inner_drives { "outer" } else { "inner" }
+    }
+
+    /// Which inertia the verdict rests on, where nobody has said it.
+    fn rests_on(&self) -> String {
+        let from = match (self.inertia_given, inertia_from(self.design, self.fed_race())) {
+            (true, _) | (false, InertiaFrom::File) => return String::new(),
+            (false, InertiaFrom::Guess) => "a guess of the file",
+            (false, InertiaFrom::Ring) => "the ring alone",
+        };
+        format!(
+            "; this rests on {} kg m² that turn with the {} race, {from} (--inertia says what does)",
+            significant(self.case.inertia_kg_m2, 4),
+            self.fed_race()
+        )
+    }
+
     /// Which number to change, and towards where, after strokes that do not feed.
     fn next_step(&self) -> Option<String> {
         let case = &self.case;
@@ -324,10 +344,11 @@ impl Said for FeedAnswer<'_> {
         if self.outcome() == Finding::Stopped {
             return format!("stopped after {} of {} frequencies", self.list.len(), self.asked);
         }
+        let rests = self.rests_on();
         let (first, last) = (&self.list[0], &self.list[self.list.len() - 1]);
         if self.is_held() {
             return format!(
-                "HELD up to {}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake",
+                "HELD up to {}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake{rests}",
                 hertz(last.frequency_hz),
                 degrees(-last.error_rad),
                 degrees(self.case.stroke_rad),
@@ -366,23 +387,30 @@ impl Said for FeedAnswer<'_> {
         match self.limit_hz {
             Some(limit) => {
                 format!(
-                    "NOT HELD: {why}; on the way up from {} it first fails beyond {}{again}",
+                    "NOT HELD: {why}; on the way up from {} it first fails beyond {}{again}{rests}",
                     hertz(first.frequency_hz),
                     hertz(limit)
                 )
             }
-            None => format!("NOT HELD: {why}, already at the slowest that was asked for{again}"),
+            None => format!("NOT HELD: {why}, already at the slowest that was asked for{again}{rests}"),
         }
     }
 
     fn remarks(&self) -> Vec<String> {
         let case = &self.case;
-        let [driving, race] = if case.inner_drives { ["inner", "outer"] } else { ["outer", "inner"] };
-        let whose = match self.inertia_given {
-            true => "with all that turns with it".to_owned(),
-            false => format!(
-                "by the file (races.{race}_inertia_kg_m2, which new writes as a guess; absent: the ring alone; --inertia says another)"
-            ),
+        let race = self.fed_race();
+        let driving = if case.inner_drives { "inner" } else { "outer" };
+        let whose = match (self.inertia_given, inertia_from(self.design, race)) {
+            (true, _) => "with all that turns with it".to_owned(),
+            (false, InertiaFrom::File) => {
+                format!("by races.{race}_inertia_kg_m2 of the file (--inertia says another)")
+            }
+            (false, InertiaFrom::Guess) => {
+                format!("a guess of the file (races.{race}_inertia_kg_m2; --inertia says another)")
+            }
+            (false, InertiaFrom::Ring) => {
+                format!("the ring alone (the file has no races.{race}_inertia_kg_m2; --inertia says another)")
+            }
         };
         let next = self.next_step();
         let most_nm = self.list.iter().filter_map(|f| f.peak.map(|p| p.torque_nm)).fold(0.0, f64::max);

@@ -19,6 +19,7 @@ pub mod feed;
 pub mod finite_elements;
 pub mod identification;
 pub mod imported;
+mod inertia;
 pub mod left_out;
 pub mod life;
 pub mod oils;

@@ -3,6 +3,7 @@
 mod words;
 
 use super::check::overrun::outer_turns;
+use super::inertia::{InertiaFrom, inertia_from};
 use super::left_out::{LeftOut, left_out_of};
 use super::{Finding, Said};
 use crate::answer::check::ends_first;
@@ -97,6 +98,8 @@ pub struct ReengagementAnswer<'a> {
     pub speed_of: Option<&'a str>,
     /// Speed of the outer race, rad/s, at which the sprags lift off in overrun; `None`: they do not.
     pub lift_off_rad_s: Option<f64>,
+    /// Whether the inertia of the outer race was given.
+    outer_given: bool,
 }
 
 /// Why there is none.
@@ -204,6 +207,7 @@ impl Design {
             borne: None,
             speed_of,
             lift_off_rad_s,
+            outer_given: settings.inertia_kg_m2[1].is_some(),
         };
         if !answer.is_held() && !settings.follow.stopped() {
             answer.borne = answer.borne(&settings.follow).map_err(NoReengagement::NoStart)?;
@@ -366,6 +370,31 @@ impl ReengagementAnswer<'_> {
             .json("ended", |b| b.ended.map(Stop::name))
     }
 
+    /// Energy over slip, `points` in mm and J, with what the windup takes up; `None`: that is not known, or there are too few points.
+    fn energy_plot(&self, points: Vec<[f64; 2]>) -> Option<Plot> {
+        let [most_j, end_j] = self.takes_up_j?;
+        let mut plot = Plot::new("Slip until the friction is back, mm", "Energy, J");
+        (plot.log_x, plot.log_y) = (true, true);
+        if points.len() < 3 {
+            return None;
+        }
+        plot.curves.push(Curve { dots: true, ..Curve::new("", points) });
+        let limit = self.bears.as_ref().map_or("limits", |(_, code)| code);
+        Some(plot.level(most_j, &format!("taken up to {limit}")).level(end_j, "to the end of the curve"))
+    }
+
+    /// That the outer race turns alone, where nobody has said what turns with it: it is the lightest there can be, and sets speed and blow.
+    fn bare_ring(&self) -> Option<String> {
+        let nobody = !self.outer_given && !self.case.outer_held;
+        (nobody && inertia_from(self.design, "outer") == InertiaFrom::Ring).then(|| {
+            format!(
+                "The outer race turns as a bare ring, {} kg m²: the file names nothing that turns with it (races.outer_inertia_kg_m2), and this \
+                 decides the answer; --outer-inertia says what does, --outer-held that it is held",
+                significant(self.case.inertia_kg_m2[1], 4)
+            )
+        })
+    }
+
     /// The friction of the slip, and its share of what the torque needs.
     fn short(&self) -> String {
         let (friction, needs) = (self.case.friction, self.found.needs);
@@ -441,7 +470,8 @@ impl Said for ReengagementAnswer<'_> {
             true => "rigidly, the outer race is held".to_owned(),
             false => format!("{outer} kg m² with the outer one, both rigidly"),
         };
-        let mut all = vec![
+        let mut all: Vec<String> = self.bare_ring().into_iter().collect();
+        all.extend([
             format!(
                 "{} carried when the friction falls to {}; {inner} kg m² turn with the inner race, {outer}{}",
                 Unit::NewtonMetre.show(case.torque_nm, 4),
@@ -455,7 +485,7 @@ impl Said for ReengagementAnswer<'_> {
              nothing lost; energy: of the races against one another, of borne: that over what the limits let the windup take up; speed gained: largest speed of the races against one another; in all: path until these stand still against one another"
                 .to_owned(),
             "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
-        ];
+        ]);
         if let Some([most_j, end_j]) = self.takes_up_j {
             let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
                 format!(" up to {} ({code})", Unit::NewtonMetre.show(*torque_nm, 4))
@@ -558,6 +588,10 @@ impl Said for ReengagementAnswer<'_> {
         let mut plot = Plot::new("Slip until the friction is back, mm", "Torque, Nm");
         plot.log_x = true;
         let blow = points(&|b| Some(b.peak?.torque_nm));
+        let energy = points(&|b| Some(self.energy(b)?.0));
+        // Where most blows have no torque, what they bring says by how much too much it is.
+        let few = blow.len() < 3 && blow.len() < energy.len();
+        let few = few.then(|| self.energy_plot(energy)).flatten();
         let blow_is_empty = blow.is_empty();
         if !blow_is_empty {
             plot.curves.push(Curve::new("blow", blow));
@@ -573,12 +607,20 @@ impl Said for ReengagementAnswer<'_> {
             plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));
         }
         if !self.found.list.is_empty() {
-            match is_empty {
+            if let Some(energy) = few {
+                page.figure(
+                    &energy.to_figure(),
+                    "Energy of the races against one another after each path of slip, and what the windup takes up: to its limits and to the end of \
+                     the curve. Beyond that the blow has no torque to draw.",
+                );
+            } else {
+                match is_empty {
                 true => page.paragraph(
                     "No curve of the blow over slip: every one of them goes beyond what the clutch carries.",
                 ),
                 false => page.figure(&plot.to_figure(), "Largest torque when the clutch grips again."),
-            };
+                };
+            }
             page.table("The blow after each path of slip.", &self.table().only(BLOW));
             page.table("The way to it.", &self.table().only(WAY));
         }

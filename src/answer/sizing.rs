@@ -6,8 +6,8 @@ use super::check::{
 use super::{Finding, Said};
 use crate::design::{Design, shown};
 use crate::follow::Follow;
-use crate::margin::{load_state, lowest_capacity};
-use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit};
+use crate::margin::{Demand, Margin, load_state, lowest_capacity};
+use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit, significant};
 use crate::size::{Decider, Made, Sized, Tried};
 use serde_json::{Value, json};
 
@@ -84,7 +84,13 @@ impl Said for Sizing<'_> {
     fn remarks(&self) -> Vec<String> {
         let written =
             self.written.map_or("no design written".to_owned(), |path| format!("written to {}", shown(path)));
-        figures(&self.sized.made).into_iter().chain(self.warnings.clone()).chain([written]).collect()
+        let shown = shown_broken(&self.sized.made);
+        figures(&self.sized.made)
+            .into_iter()
+            .chain(self.warnings.clone())
+            .chain(shown)
+            .chain([written])
+            .collect()
     }
 
     fn table(&self) -> Table {
@@ -127,6 +133,55 @@ impl Said for Sizing<'_> {
         page.table(&no_flanks(&self.sized.tried).unwrap_or_default(), &self.table());
         page.heading("Margins").table(REACHED_AT, &people_table(&self.sized.made.margins, self.end_nm));
     }
+}
+
+/// What turns with the races of a first design, which nobody has said: words, value, and where it comes from with what rests on it.
+pub fn taken_inertias(design: &Design) -> [(String, String, String); 2] {
+    let races = &design.clutch.races;
+    let row = |what: &str, kg_m2: f64, from: &str| {
+        (what.to_owned(), format!("{} kg m²", significant(kg_m2, 4)), from.to_owned())
+    };
+    [
+        row(
+            "turns with inner race",
+            races.inner_inertia_kg_m2,
+            "guess: ring and drive; scenes, feed and reengage rest on it (races.inner_inertia_kg_m2)",
+        ),
+        row(
+            "turns with outer race",
+            races.outer_inertia_kg_m2,
+            "the ring alone; reengage rests on it (races.outer_inertia_kg_m2)",
+        ),
+    ]
+}
+
+/// The rows that are shown only and would not hold, and what that means, a line for each scene and one for the others.
+fn shown_broken(made: &Made) -> Vec<String> {
+    let mut lines: Vec<(Option<&str>, Vec<&Margin>)> = Vec::new();
+    for row in made.margins.iter().filter(|r| !r.required && r.computed() && !r.held()) {
+        let scene = row.scene.as_deref();
+        match lines.iter_mut().find(|(known, _)| *known == scene) {
+            Some((_, rows)) => rows.push(row),
+            None => lines.push((scene, vec![row])),
+        }
+    }
+    let line = |(scene, rows): (Option<&str>, Vec<&Margin>)| {
+        let codes: Vec<String> = rows.iter().map(|r| r.code()).collect();
+        let opens = rows.iter().any(|r| r.is_contact() || r.demand == Demand::NoneSuffices);
+        let means = match (scene, opens) {
+            (Some(scene), true) => format!(
+                "in scene {scene} the sprags lose contact for a while, which no friction prevents, and strike again; `simulate` with --scenario \
+                 {scene} shows how hard"
+            ),
+            (Some(scene), false) => format!("`simulate` with --scenario {scene} shows by how much"),
+            (None, _) => "`check` shows by how much".to_owned(),
+        };
+        format!(
+            "Shown only, and broken: {}: {means}; its numbers are guesses, and it has no say in the verdict",
+            codes.join(", ")
+        )
+    };
+    lines.into_iter().map(line).collect()
 }
 
 /// Shear stress that no shaft bears, Pa: hardened steel yields at some 700 MPa.

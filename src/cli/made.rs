@@ -5,7 +5,7 @@ use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use crate::answer::sizing::{Sizing, tried};
 use crate::scenario::Settings;
-use crate::size::{NoSize, Requirements, size};
+use crate::size::{NoSize, Requirements, Sized, size};
 use serde_json::json;
 use std::path::Path;
 
@@ -17,11 +17,16 @@ pub fn refuse(wanted: &Requirements) -> Result<(), Failure> {
     wanted.check().map_err(|why| Failure::malformed(format!("--{why}")))
 }
 
-/// Compute, write, print; `title`: that of the page.
+/// Compute, write, print; `title`: that of the page. What was found, too.
 ///
 /// # Errors
 /// [`Failure`].
-pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Context) -> Result<Exit, Failure> {
+pub fn answer(
+    wanted: &Requirements,
+    output: &Path,
+    title: &str,
+    context: &Context,
+) -> Result<(Exit, Option<Sized>), Failure> {
     let settings = Settings { follow: context.follow.unseen(), ..Settings::default() };
     let (sized, run_time_s) = timed(|| size(wanted, &settings));
     if context.follow.stopped() {
@@ -29,17 +34,18 @@ pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Conte
     }
     let sized = match sized {
         Ok(sized) => sized,
-        Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| Exit::Failed),
+        Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| (Exit::Failed, None)),
         Err(ref why @ NoSize::None { tried: ref list }) => {
             let rows = tried(list, None);
             let table = rows.clone().table();
             context.object(|| json!({ "sized": false, "why": why.to_string(), "tried": rows.objects() }))?;
             context.outputs.write_csv(&table);
             context.answer(&format!("{}\n{why}\n", table.to_text(context.screen)))?;
-            return Ok(Exit::NotHeld);
+            return Ok((Exit::NotHeld, None));
         }
     };
     let written = context.outputs.write(output, FileKind::Design, sized.made.design.source.as_bytes());
     let written = written.then(|| output.display().to_string());
-    context.deliver(&Sizing::of(&sized, title, written.as_deref()), run_time_s)
+    let exit = context.deliver(&Sizing::of(&sized, title, written.as_deref()), run_time_s)?;
+    Ok((exit, Some(sized)))
 }

@@ -5,11 +5,12 @@ use super::interrupt::next;
 use super::origin::FileKind;
 use super::output;
 use super::{Context, Run, Without, made, number};
+use crate::answer::sizing::taken_inertias;
 use crate::design::nearest_steel;
 use crate::follow::Follow;
 use crate::material::{STEELS, Steel, steel};
 use crate::report::plain;
-use crate::size::{ASKED, BadRequirement, PURPOSES, Purpose, Requirements, Wish, WishNumber, purpose};
+use crate::size::{ASKED, BadRequirement, PURPOSES, Purpose, Requirements, Sized, Wish, WishNumber, purpose};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use std::io::{BufRead, IsTerminal};
@@ -140,7 +141,7 @@ impl Run for SizeArgs {
         if !missing.is_empty() {
             return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
         }
-        sized(&self.wish.0, &self.output, "First design", context).map(|(_, exit)| exit)
+        sized(&self.wish.0, &self.output, "First design", context).map(|(_, (exit, _))| exit)
     }
 }
 
@@ -168,8 +169,10 @@ impl Run for NewArgs {
                 .fill(&mut wish, &mut output)?;
         }
         let Some(output) = output else { return Err(Failure::malformed("needed: -o NEW.toml")) };
-        let (wanted, exit) = sized(&wish, &output, "New clutch", context)?;
-        let taken = wanted.taken().into_iter();
+        let (wanted, (exit, found)) = sized(&wish, &output, "New clutch", context)?;
+        let rows = |(what, value, from): (&str, String, &str)| (what.to_owned(), value, from.to_owned());
+        let inertias = found.iter().flat_map(|found| taken_inertias(&found.made.design));
+        let taken = wanted.taken().into_iter().map(rows).chain(inertias);
         let lines: String =
             taken.map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
         if !lines.is_empty() {
@@ -209,12 +212,12 @@ fn sized(
     output: &Path,
     title: &str,
     context: &Context,
-) -> Result<(Requirements, Exit), Failure> {
+) -> Result<(Requirements, (Exit, Option<Sized>)), Failure> {
     let wanted = wish.check().map_err(refused)?;
     context.outputs.refuse_work(output)?;
     context.outputs.check(&[], &[(output, FileKind::Design)])?;
     context.outputs.refuse_foreign()?;
-    made::answer(&wanted, output, title, context).map(|exit| (wanted, exit))
+    made::answer(&wanted, output, title, context).map(|found| (wanted, found))
 }
 
 /// Lines of standard input as they come: whoever waits for them can be stopped by Ctrl-C meanwhile.

@@ -103,7 +103,8 @@ impl Run for SimulateArgs {
             let text = if self.figures { SimulationAnswer::text_with_all_figures } else { Answer::text };
             let exit = context.deliver_as(&found, text, run_time_s)?;
             for note in &found.body.notes {
-                context.message(&format!("note: {note}"));
+                let word = if note.starts_with("warning: ") { "" } else { "note: " };
+                context.message(&format!("{word}{note}"));
             }
             Ok(exit)
         })

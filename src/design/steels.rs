@@ -76,11 +76,16 @@ pub(super) fn refuse_mixed_material(out: &mut Findings) {
     );
 }
 
-/// The name of a steel that this one is misspelt for: with the digits of another name it is another steel.
+/// The name of a steel that this one is misspelt for: with two digits of another it is another steel.
 pub fn nearest_steel(name: &str) -> Option<&'static str> {
-    let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
+    let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<Vec<char>>();
+    let own = digits(name);
+    let misspelt = |known: &&str| {
+        let of = digits(known);
+        of.len() == own.len() && of.iter().zip(&own).filter(|(a, b)| a != b).count() <= 1
+    };
     let all = STEELS.iter().flat_map(|s| std::iter::once(s.name).chain(s.also.iter().copied()));
-    let alike: Vec<&str> = all.filter(|known| digits(known) == digits(name)).collect();
+    let alike: Vec<&str> = all.filter(misspelt).collect();
     nearest(name, &alike)
 }
 

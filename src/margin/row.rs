@@ -228,6 +228,15 @@ impl Margin {
         matches!(self.demand, Demand::Overloaded { .. })
     }
 
+    /// Whether its torque lies beyond the end of the curve and nothing up to there breaks it: its margin is no more than what the torque
+    /// lacks. The end of the curve itself is reached there.
+    pub fn is_not_reached(&self) -> bool {
+        let Demand::Overloaded { at_end: Some(demand), shortfall: Some(short) } = self.demand else {
+            return false;
+        };
+        short > LOST && self.limit.rule.margin(demand, self.allowable, self.reference) > short.max(RESOLUTION)
+    }
+
     /// Demand in the limit's unit, where it is a number; beyond the end of the curve that at the end.
     pub fn demand_in_unit(&self) -> Option<f64> {
         self.demand.value().map(|demand| demand * self.limit.per_si)

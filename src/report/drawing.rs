@@ -171,6 +171,21 @@ impl SpragPose {
         (distance > 0.0).then_some([x * keep, y * keep])
     }
 
+    /// Lay the outline so that its contact with the inner race at first contact, and the direction across it, are those of `other`, which stands
+    /// as it is drawn. Nothing but the outline is drawn of it then.
+    pub fn lay_at_contact_of(&mut self, other: &Self) {
+        let (Some(from), Some(to)) = (self.inner_contact_m(), other.inner_contact_m()) else { return };
+        let (s, c) = (to[0].atan2(to[1]) - from[0].atan2(from[1])).sin_cos();
+        let placed: Vec<[f64; 2]> = self.outline_m.iter().map(|&p| self.place(p)).collect();
+        self.rotation_rad = 0.0;
+        let laid = |[x, y]: [f64; 2]| {
+            let (x, y) = (x - from[0], y - from[1]);
+            // Turned towards positive azimuth, clockwise on the page.
+            [to[0] + x * c + y * s, to[1] + y * c - x * s - self.outer_centre_distance_m]
+        };
+        self.outline_m = placed.into_iter().map(laid).collect();
+    }
+
     /// Point of `arc` at which the contact direction has turned by `turn_rad`, body frame, m.
     fn profile_point_m(&self, arc: &DrawnArc, turn_rad: f64) -> [f64; 2] {
         let (s, c) = (self.beta0_rad - turn_rad).sin_cos();

@@ -166,7 +166,7 @@ impl Plot {
         svg.title_text([begin_within(LEFT_PX, &title, width), 15.0], &title);
         self.draw_legend(&mut svg, &legend, &styles, title_px);
         self.draw_markers(&mut svg, &x, &markers, top_px);
-        self.draw_levels(&mut svg, &y, left, top_px);
+        self.draw_levels(&mut svg, &x, &y, top_px);
         if extent.is_empty() {
             svg.text([width / 2.0, height / 2.0], Anchor::Middle, SOFT, "no data");
         }
@@ -341,15 +341,46 @@ impl Plot {
         }
     }
 
-    fn draw_levels(&self, svg: &mut Svg, y: &Axis, left: f64, top_px: f64) {
-        let right = self.size_px[0] - RIGHT_PX;
+    fn draw_levels(&self, svg: &mut Svg, x: &Axis, y: &Axis, top_px: f64) {
+        let [left, right] = x.px;
         let style = format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"1.2\" stroke-dasharray=\"7 4\"");
         for level in self.sound_levels() {
             let at = y.at(level.at);
             svg.line([left, at], [right, at], &style);
-            let label_y = if at < top_px + ROW_PX { at + 14.0 } else { at - 5.0 };
-            svg.text([right - 5.0, label_y], Anchor::End, SOFT, &level.label);
+            let above = at >= top_px + ROW_PX;
+            let heights = if above { [at - 5.0, at + 14.0] } else { [at + 14.0, at + 14.0] };
+            let ends = [(right - 5.0, Anchor::End), (left + 5.0, Anchor::Start)];
+            let wide = text_width(&level.label, TEXT_PX);
+            // At the right end above its line, or where no curve runs through it.
+            let mut places = heights.into_iter().flat_map(|h| ends.map(|(end, anchor)| ([end, h], anchor)));
+            let first = ([right - 5.0, heights[0]], Anchor::End);
+            let free = |([end, h], anchor): &([f64; 2], Anchor)| {
+                let from = if matches!(anchor, Anchor::End) { end - wide } else { *end };
+                h + 3.0 < y.px[0]
+                    && !self.crosses(x, y, [from - 2.0, from + wide + 2.0], [h - TEXT_PX, h + 3.0])
+            };
+            let (place, anchor) = places.find(free).unwrap_or(first);
+            svg.text(place, anchor, SOFT, &level.label);
         }
+    }
+
+    /// Whether a curve runs through a box, px.
+    fn crosses(&self, x: &Axis, y: &Axis, wide: [f64; 2], high: [f64; 2]) -> bool {
+        /// Places looked at between two points.
+        const BETWEEN: usize = 16;
+        let inside = |[a, b]: [f64; 2]| wide[0] <= a && a <= wide[1] && high[0] <= b && b <= high[1];
+        let px = |&[a, b]: &[f64; 2]| [x.at(a), y.at(b)];
+        let between = |pair: &[[f64; 2]]| {
+            let [a, b] = [px(&pair[0]), px(&pair[1])];
+            (0..=BETWEEN).any(|i| {
+                let t = i as f64 / BETWEEN as f64;
+                inside([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])])
+            })
+        };
+        self.curves
+            .iter()
+            .flat_map(|c| c.points.split(|p| !self.drawable(p)))
+            .any(|run| run.iter().any(|p| inside(px(p))) || run.windows(2).any(between))
     }
 }
 

@@ -232,6 +232,11 @@ impl Wish {
         let raised =
             lifts.filter(|lift| self.outer_rad_s.is_none() && outer.is_some_and(|outer| *lift > outer));
         let outer = raised.or(outer);
+        // A purpose that keeps contact keeps it at the speed that somebody names for its overrun.
+        let keeps = self.purpose.is_some_and(|p| p.lift_off_rpm.is_none() && p.keep_contact_rpm.value > 0.0);
+        let follows = keeps && self.keep_contact_rad_s.is_none() && lift.is_none_or(|w| w == 0.0);
+        let raised_keep = self.outer_rad_s.filter(|outer| follows && keep.is_some_and(|keep| *outer > keep));
+        let keep = raised_keep.or(keep);
         let inner = self.inner_rad_s.or(of(|p| p.overrun_rpm[0].value).map(rad_s));
         let said = |value: Option<f64>, other: &'static str| value.map_or(other, |_| NAMED);
         let usual = self.purpose.and_then(|p| p.excitation);
@@ -276,7 +281,13 @@ impl Wish {
                 ),
             ],
             contact_from: [
-                said(self.keep_contact_rad_s, self.purpose.map_or("", |p| p.keep_contact_rpm.from)),
+                said(
+                    self.keep_contact_rad_s,
+                    match raised_keep {
+                        Some(_) => "the outer race in overrun",
+                        None => self.purpose.map_or("", |p| p.keep_contact_rpm.from),
+                    },
+                ),
                 said(self.lift_off_rad_s, self.purpose.and_then(|p| p.lift_off_rpm).map_or("", |g| g.from)),
             ],
             steel: self.steel.unwrap_or(&STEELS[0]),

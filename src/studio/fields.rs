@@ -1,6 +1,7 @@
 //! Every number of a design that the page lets one change: from the file and its schema.
 
 use crate::design::{Design, Input, inputs, shape_of, variable_path};
+use crate::report::Unit;
 use serde::Serialize;
 
 /// One number or choice of the file.
@@ -17,7 +18,7 @@ pub struct Field {
     /// Value of a number, in the file's unit.
     pub value: Option<f64>,
     /// Ends of its slider: the bounds of `[optimize]` where it is a variable there, else a quarter to both sides, within what
-    /// the file format allows. A 0 that is no variable has none of that: it goes to the size of the largest like number of the
+    /// the file format allows, of an allowed gap from the gap at rest to three times what is allowed beside it. A 0 that is no variable has none of that: it goes to the size of the largest like number of the
     /// file, or to 1.
     pub range: Option<[f64; 2]>,
     /// Whether it takes whole numbers only.
@@ -73,13 +74,21 @@ fn field(design: &Design, input: Input, like: f64) -> Option<Field> {
         let half = if whole { (0.25 * x.abs()).ceil().max(2.0) } else { 0.25 * x.abs() };
         [(x - half).max(low), (x + half).min(high)]
     };
+    // An allowed gap differs little from the gap: from just above that on, to a few times what is allowed beside it.
+    let about_the_gap = |x: f64| {
+        let races = &design.clutch.races;
+        let gap = Unit::Millimetre.from_si(races.outer_radius_m - races.inner_radius_m);
+        let growth = x - gap;
+        let is_gap = path.starts_with("limits.gap_") && growth > 0.0;
+        is_gap.then_some([gap + 0.05 * growth, gap + 3.0 * growth])
+    };
     let from_zero = |like: f64| {
         let [low, high] = around(if like == 0.0 { 1.0 } else { like });
         [low.min(0.0), high.max(0.0)]
     };
     let range = number.map(|x| match bounds {
         Some([low, high]) => [low.min(x), high.max(x)],
-        None if x != 0.0 => around(x),
+        None if x != 0.0 => about_the_gap(x).unwrap_or_else(|| around(x)),
         None => from_zero(like),
     });
     Some(Field {
@@ -99,6 +108,23 @@ fn field(design: &Design, input: Input, like: f64) -> Option<Field> {
 mod tests {
     use super::*;
     use crate::design::with_setting;
+
+    #[test]
+    fn an_allowed_gap_slides_about_the_gap() {
+        let text = include_str!("../../designs/series-833-small.toml");
+        let design = Design::parse(text, "a.toml").unwrap();
+        let of = |path: &str| fields(&design).into_iter().find(|f| f.path == path).unwrap();
+        for path in ["limits.gap_nominal_mm", "limits.gap_peak_mm"] {
+            let field = of(path);
+            let (x, [low, high]) = (field.value.unwrap(), field.range.unwrap());
+            let gap = Unit::Millimetre
+                .from_si(design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m);
+            assert!(
+                gap < low && low < x && x < high && high - low < 3.0 * (x - gap),
+                "{path}: {low} {x} {high}"
+            );
+        }
+    }
 
     #[test]
     fn every_field_can_be_set_to_its_own_value_and_has_a_meaning() {

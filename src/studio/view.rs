@@ -312,12 +312,17 @@ pub(super) fn row(r: &Margin, end_torque_nm: Option<f64>) -> MarginRow {
     };
     let shown = || r.shown_margin().map_or("no demand".to_owned(), |m| Unit::Percent.show(m, 3));
     let text = in_place_of_margin(r).map_or_else(shown, str::to_owned);
+    let early = end_torque_nm.filter(|_| r.is_not_reached());
     MarginRow {
         code: r.code(),
         name: format!("{}. {}", r.name, r.limit.explanation),
-        against: if in_place_of_margin(r).is_some() { String::new() } else { against(r) },
+        against: match (early, in_place_of_margin(r)) {
+            (Some(end_nm), _) => format!("the curve ends at {}", Unit::NewtonMetre.show(end_nm, 4)),
+            (None, Some(_)) => String::new(),
+            (None, None) => against(r),
+        },
         text,
-        reached: reached(r, end_torque_nm),
+        reached: if early.is_some() { String::new() } else { reached(r, end_torque_nm) },
         margin,
         required: r.required,
         tone,

@@ -298,8 +298,8 @@ impl CheckBody {
     pub fn other_remarks(&self) -> Vec<String> {
         let early = (self.end.torque_nm < self.asked_nm).then(|| {
             format!(
-                "The curve ends ({}) at {}, below {}: a limit held beyond is not reached, and its margin is what the \
-                 torque lacks, end/torque − 1, or less",
+                "The curve ends ({}) at {}, below the {} asked: limits beyond are not reached, which counts as not held, whatever they would \
+                 allow; a number there is a margin that is broken before (in JSON and CSV at most what the torque lacks, end/torque − 1)",
                 self.end.reason,
                 Unit::NewtonMetre.show(self.end.torque_nm, 4),
                 Unit::NewtonMetre.show_plain(self.asked_nm, 4)
@@ -350,7 +350,10 @@ pub fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
         .number("demand", "Demand", Unit::One, 4, |r| demand_cell(r))
         .number("allowable", "Allowable", Unit::One, 4, |r| allowable_cell(r))
         .text("unit", "Unit", |r| unit_cell(r))
-        .number("margin", "Margin", Unit::Percent, 3, |r| margin_cell(r))
+        // What is not reached says so once, under demand.
+        .number("margin", "Margin", Unit::Percent, 3, |r| {
+            if r.is_not_reached() { Cell::Empty } else { margin_cell(r) }
+        })
         .number("torque_capacity_nm", "Reached at", Unit::NewtonMetre, 4, |r| {
             r.torque_capacity_nm.map_or(Cell::Empty, |c| capacity_cell(r, c, end_torque_nm))
         })
@@ -360,13 +363,14 @@ pub fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
 
 /// Whether the row's figure is what is left, and is to lie above 0: its demand is 0, and the figure its allowable.
 fn is_what_is_left(r: &Margin) -> bool {
-    matches!(r.limit.rule, Rule::Itself | Rule::Clearance) && r.demand == Demand::Value(0.0)
+    let none_asked = r.demand == Demand::Value(0.0) || (r.overloaded() && r.limit.rule == Rule::Clearance);
+    matches!(r.limit.rule, Rule::Itself | Rule::Clearance) && none_asked
 }
 
 /// The demand as people read it; of what is left that.
 pub fn demand_cell(r: &Margin) -> Cell {
     match r.demand {
-        _ if is_what_is_left(r) => r.shown_allowable().into(),
+        Demand::Value(_) if is_what_is_left(r) => r.shown_allowable().into(),
         // What would lift the sprags off presses them on.
         Demand::Value(demand) if r.limit.rule == Rule::Share && demand < 0.0 => PRESSED_ON.into(),
         Demand::Value(_) | Demand::MoreThan(_) => r.demand_in_unit().into(),
@@ -397,12 +401,13 @@ pub fn unit_cell(r: &Margin) -> Cell {
     }
 }
 
-/// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies beyond the end of the curve, or a run
-/// met its limit of work.
+/// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies beyond the end of the curve, its
+/// torque does and nothing breaks it before, or a run met its limit of work.
 pub fn in_place_of_margin(r: &Margin) -> Option<&'static str> {
     match r.demand {
         Demand::NoneSuffices => Some(NONE),
         Demand::Overloaded { .. } if r.margin() <= -1.0 => Some(OVERLOADED),
+        _ if r.is_not_reached() => Some(NOT_REACHED),
         Demand::NotComputed(_) => Some(NOT_COMPUTED),
         _ => None,
     }

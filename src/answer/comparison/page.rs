@@ -19,8 +19,12 @@ pub(super) fn page(compared: &Comparison<'_>, provenance: &Provenance) -> Page {
         (false, _) => Tone::Bad,
     };
     page.verdict_in(tone, &compared.verdict());
-    if let Some(now) = compared.subjects.get(1) {
-        draw_sheet(&mut page, &now.design, &letter(1));
+    if let [before, now, ..] = compared.subjects {
+        // One drawing stands for designs of the same races.
+        if !alike(before, now) {
+            draw_sheet(&mut page, &before.design, &format!("Drawing of {}", label(compared, 0)));
+        }
+        draw_sheet(&mut page, &now.design, &format!("Drawing of {}", label(compared, 1)));
     }
     page.table("", &tables::designs(compared));
     page.heading("What differs");
@@ -68,6 +72,12 @@ pub(super) fn page(compared: &Comparison<'_>, provenance: &Provenance) -> Page {
     page
 }
 
+/// Whether two designs have the same races as run.
+fn alike(a: &Subject, b: &Subject) -> bool {
+    let races = |s: &Subject| Drawing::of(&s.design.clutch, Vec::new()).race_radii_m;
+    races(a) == races(b)
+}
+
 /// Outlines over one another, the second in full, and by how much the profiles differ.
 fn profiles(page: &mut Page, compared: &Comparison<'_>) {
     let pose = |(i, s): (usize, &Subject)| {
@@ -76,11 +86,21 @@ fn profiles(page: &mut Page, compared: &Comparison<'_>) {
     let mut poses: Vec<SpragPose> = compared.subjects.iter().enumerate().map(pose).collect();
     let Some(now) = compared.subjects.get(1) else { return };
     poses.swap(0, 1);
+    let other = compared.subjects.iter().any(|s| !alike(s, now));
+    let words = match other {
+        true => {
+            "The sprag of B between its races, to scale, and the others dashed over it at the same scale, laid so that all touch the inner race of B \
+                 at the same point, A, in the same direction; their own races are of other radii. Dimensions are those of B."
+        }
+        false => {
+            "The sprag of B between its races, to scale, and the others dashed over it; dimensions are those of B."
+        }
+    };
+    if let Some((first, others)) = poses.split_first_mut().filter(|_| other) {
+        others.iter_mut().for_each(|pose| pose.lay_at_contact_of(first));
+    }
     page.heading("Profiles");
-    page.figure(
-        &Drawing::of(&now.design.clutch, poses).detail_figure(),
-        "The sprag of B between its races, to scale, and the others dashed over it; dimensions are those of B.",
-    );
+    page.figure(&Drawing::of(&now.design.clutch, poses).detail_figure(), words);
     let mut plot = Plot::new("Turn of the contact since first contact, rad", "Outside the profile of A, µm");
     let mut apart = Vec::new();
     for (i, points) in proud(compared.subjects).enumerate() {

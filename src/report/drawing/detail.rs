@@ -36,10 +36,14 @@ impl View {
         let points = || poses.iter().flat_map(|p| p.outline_m.iter().map(|&q| p.place(q)[0]));
         let left = points().fold(0.0, f64::min);
         let right = points().fold(0.0, f64::max);
-        let high = gap * 1.5;
+        // Outlines of other sizes may stand out of the gap.
+        let heights = || poses.iter().flat_map(|p| p.outline_m.iter().map(|&q| p.place(q)[1]));
+        let low = heights().fold(inner - 0.25 * gap, |a, y| a.min(y - 0.1 * gap));
+        let top = heights().fold(outer + 0.25 * gap, |a, y| a.max(y + 0.1 * gap));
+        let high = top - low;
         let wide = (right - left).max(0.5 * gap) * 1.15;
         let scale = (size[1] / high).min((size[0] - columns[0] - columns[1]) / wide);
-        let middle_m = [(left + right) / 2.0, (inner + outer) / 2.0];
+        let middle_m = [(left + right) / 2.0, (low + top) / 2.0];
         (scale.is_finite() && scale > 0.0).then_some(Self { scale, middle_m, size, columns })
     }
 

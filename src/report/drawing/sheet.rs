@@ -10,12 +10,12 @@ use crate::report::svg::{
 const WIDTH: f64 = 680.0;
 const HEIGHT: f64 = 440.0;
 /// Where the enlarged sprag begins, beside the front view.
-const SPLIT: f64 = 278.0;
+const SPLIT: f64 = 292.0;
 /// Room for the sprag between its labels, px, and the part of the rest that those on the left have.
 const MIDDLE: f64 = 108.0;
 const LEFT: f64 = 0.53;
 /// Largest diameter of the front view.
-const WIDEST: f64 = 205.0;
+const WIDEST: f64 = 222.0;
 /// Pixels of a page per metre of paper: 96 an inch.
 const PAPER_PX_PER_M: f64 = 96.0 / 0.0254;
 /// Scales of a drawing (ISO 5455).

@@ -170,3 +170,15 @@ fn errors_at_rounding_are_drawn_where_they_are() {
     assert!(upper > 0.0 && (upper / lower - 1.0).abs() < 1e-6, "{heights:?}");
     assert!(svg.contains(">1e-12<") && svg.contains(">1e-4<"), "{svg}");
 }
+
+#[test]
+fn the_name_of_a_level_stands_where_no_curve_runs() {
+    let at = |curve: Vec<[f64; 2]>| {
+        let svg = Plot::new("Torque", "Force").curve("", curve).level(1.0, "peak").to_svg();
+        let text = svg.split("<text").find(|t| t.contains(">peak<")).unwrap().to_owned();
+        text.contains("text-anchor=\"end\"")
+    };
+    assert!(at(vec![[0.0, 0.0], [1.0, 0.2], [2.0, 0.3]]));
+    // A curve that ends just above the line at the right.
+    assert!(!at(vec![[0.0, 0.0], [1.9, 1.06], [2.0, 1.06]]));
+}
