@@ -6,13 +6,15 @@
 //! cost slopes FILE K N    N evaluations of a search at the start and as often derivatives along the first K variables, for a
 //!                         counter of instructions
 //! cost course FILE        the course of the best feasible value of a search: evaluations, derivatives, value; a line for each better one
+//! cost robust FILE        the same of a robust search from one climb: the points at which its climbs end, each with a look at every corner
 //! cost build FILE HOW N   N curves and nothing else, for a counter of instructions; HOW: full, search
 //! ```
 
 use sprag_design::answer::search::{MOST_STARTS, STARTS};
 use sprag_design::margin::load_state_at;
 use sprag_design::optimise::{
-    ClutchProblem, Desk, Entry, Evaluate, Fidelity, ProblemId, Record, SearchMethod, Settings,
+    ClutchProblem, Desk, Entry, Evaluate, Fidelity, Forgetful, ProblemId, Record, SearchMethod, Settings,
+    robust, spread,
 };
 use sprag_design::scenario::{self, demand_quickly};
 use sprag_design::wedge::{Closure, Effort};
@@ -38,6 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             slopes(&Design::read(Path::new(file))?, along.parse()?, times.parse()?)
         }
         ["course", file] => course(&Design::read(Path::new(file))?),
+        ["robust", file] => robust_course(&Design::read(Path::new(file))?),
         ["build", file, how, times] => {
             let design = Design::read(Path::new(file))?;
             let profile = design.clutch.profile()?;
@@ -47,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok(())
         }
         _ => {
-            Err("cost counts FILE | curve FILE | slopes FILE K N | course FILE | build FILE full|search N"
+            Err("cost counts FILE | curve FILE | slopes FILE K N | course FILE | robust FILE | build FILE full|search N"
                 .into())
         }
     }
@@ -140,6 +143,30 @@ fn course(design: &Design) -> Result<(), Box<dyn Error>> {
     let method = SearchMethod { starts, most_starts, seed, ..SearchMethod::default() };
     let mut course = Course { best: f64::NEG_INFINITY, ..Course::default() };
     search(design, &method, Fidelity::default(), &Desk::new(&Follow::default(), &mut course))?;
+    Ok(())
+}
+
+/// As `optimize --robust --starts 1 --step-mm 0` searches. A point counts once all its corners are looked at, as with other optimisers.
+fn robust_course(design: &Design) -> Result<(), Box<dyn Error>> {
+    let seed = design.optimize.as_ref().ok_or("no table `optimize`")?.seed;
+    let of = design.tolerances.as_ref().ok_or("no table `tolerances`")?;
+    let method = SearchMethod { starts: 1, most_starts: 1, seed, ..SearchMethod::default() };
+    let mut forgetful = Forgetful;
+    let desk = Desk::new(&Follow::default(), &mut forgetful);
+    let found = search(design, &method, Fidelity::default(), &desk)?;
+    let (lo, hi) = found.bounds();
+    let held = robust(&found.problem, &found.outcome.x, (&lo, &hi), 0.0, of, (0, seed), &method, &desk)?;
+    let (mut looks, mut best) = (0, f64::NEG_INFINITY);
+    for at in &held.passed {
+        let made = spread(&found.problem, &at.x, of, (0, seed), &desk)?;
+        looks += made.evaluations;
+        if made.held() && made.objective.1 > best {
+            best = made.objective.1;
+            let (evaluations, derivatives) =
+                (found.evaluations + at.evaluations + looks, found.derivatives + at.derivatives);
+            println!("[{evaluations}, {derivatives}, {best}]");
+        }
+    }
     Ok(())
 }
 

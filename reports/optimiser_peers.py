@@ -169,12 +169,12 @@ METHODS = [("scipy differential evolution", differential_evolution), ("pymoo gen
            ("scipy COBYLA, 5 starts", local("COBYLA")), ("scipy SLSQP, 5 starts", local("SLSQP"))]
 
 
-def ours(design, threads, more=()):
+def ours(design, threads):
     with tempfile.TemporaryDirectory() as folder:
         journal = os.path.join(folder, "journal.csv")
         begun = time.perf_counter()
         done = subprocess.run([TOOL, "optimize", design, "-o", os.path.join(folder, "new.toml"), "--json", "--quiet", "--step-mm", "0",
-                               "--threads", str(threads), "--journal", journal, *more, *["--robust"] * is_robust(design)],
+                               "--threads", str(threads), "--journal", journal, *["--robust"] * is_robust(design)],
                               capture_output=True, text=True)
         seconds = time.perf_counter() - begun
         return json.loads(done.stdout), seconds
@@ -189,15 +189,10 @@ def spent(found, derivative):
     return found["evaluations"] + derivative * along + beside
 
 
-def course_of(found, derivative):
-    """The end of a robust search, the only value of its course that is known."""
-    return [(spent(found, derivative), found["robust"]["made"]["objective"]["worst"])]
-
-
 def courses_of_ours(design):
-    """The course of `optimize` on one thread, climb by climb, over evaluations and derivatives, from examples/cost.rs."""
+    """The course of `optimize` on one thread over evaluations and derivatives, from examples/cost.rs."""
     cost = os.path.join(os.path.dirname(TOOL), "examples", "cost")
-    done = subprocess.run([cost, "course", design], capture_output=True, text=True, check=True)
+    done = subprocess.run([cost, "robust" if is_robust(design) else "course", design], capture_output=True, text=True, check=True)
     return [json.loads(line) for line in done.stdout.splitlines()]
 
 
@@ -232,9 +227,7 @@ def main():
                 rows.append((name, method, spent(found, derivative), seconds, best, len(starts), max(starts),
                              found["optima"]["seen"], found["derivatives"], derivative))
                 if threads == 1:
-                    # Of a robust search, one climb before it: its end alone is known.
-                    course = (course_of(ours(design, 1, ["--starts", "1"])[0], derivative) if is_robust(design)
-                              else [(n + derivative * d, v) for n, d, v in courses_of_ours(design)])
+                    course = [(n + derivative * d, v) for n, d, v in courses_of_ours(design)]
                 courses[name, method] = course
                 print(rows[-1], file=sys.stderr, flush=True)
                 write(rows, courses)

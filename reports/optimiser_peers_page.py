@@ -203,8 +203,9 @@ either; its evaluations are those of all starts, the finish and the influence ta
 margins along single variables; each is counted at what it costs in instructions against an evaluation
 (<code>examples/cost.rs</code>, callgrind): column <code>derivative_cost</code> of the CSV.</li>
 <li>Whole numbers: each value has an equal share of the unit; COBYLA and SLSQP start from the file's values at each of them.</li>
-<li>Robust: an evaluation counts for the clutch as drawn and for each corner of its tolerances. Of ours with <code>--starts 1</code> all
-that it spends counts as spent before it is near, the draws of its table apart.</li>
+<li>Robust: an evaluation counts for the clutch as drawn and for each corner of its tolerances, and a point counts once all of them
+are looked at. Ours (<code>--starts 1</code>) goes by slopes between its climbs: the course has the points at which a climb ends, each with
+such a look beside all that was spent by then; the search itself looks at all corners where it has settled alone.</li>
 <li>{GLOBAL}: scipy {version('scipy')}, Sobol start, seed 1, feasibility first, then the objective; stopped at the
 number of evaluations given.</li>
 <li>pymoo genetic algorithm: pymoo {version('pymoo')}, population 60, seed 1, constraints as its own rule treats them,

@@ -53,7 +53,7 @@ pub use price::{Price, PriceKind};
 pub use problem::{Assessment, ClutchProblem, Fidelity, Names};
 pub use realise::{Nearest, Realised, is_centroid, realise};
 pub use relief::{Freed, Relief, relief};
-pub use robust::{Robust, RobustSearch, Spread, robust, spread};
+pub use robust::{Passed, Robust, RobustSearch, Spread, robust, spread};
 pub use search::{NoSearch, Search, Variable, search, search_problem};
 pub use settings::{Noise, Settings};
 pub use starts::{ClimbRecord, Optima, SearchMethod};

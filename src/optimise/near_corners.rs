@@ -14,7 +14,7 @@ use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::journal::{Memo, SearchRun};
 use super::outcome::{Refusal, Status};
 use super::problem::ClutchProblem;
-use super::robust::{at_each, worse_than_set};
+use super::robust::{Passed, at_each, worse_than_set};
 use super::settings::Settings;
 use super::space::Space;
 use super::starts::SearchMethod;
@@ -42,6 +42,8 @@ pub(super) struct NearCorners {
     pub evaluations: usize,
     /// Derivatives along one variable beside them.
     pub derivatives: usize,
+    /// Where its climbs ended.
+    pub passed: Vec<Passed>,
 }
 
 /// The margins at all corners of a set by the clutch as drawn.
@@ -172,7 +174,7 @@ pub(super) fn climb_on_slopes(
     let settings = Settings { finish: false, ..method.climb.clone() };
     let set = vec![Corner::NOMINAL];
     let (x, status) = (x0.to_vec(), Status::Interrupted);
-    let mut near = NearCorners { x, set, status, evaluations: 0, derivatives: 0 };
+    let mut near = NearCorners { x, set, status, evaluations: 0, derivatives: 0, passed: Vec::new() };
     // Each with what it knows of its latest evaluation, for its slopes there.
     let mut problems = vec![problem.at_corners(vec![Corner::NOMINAL])];
     let mut before = f64::NAN;
@@ -193,6 +195,8 @@ pub(super) fn climb_on_slopes(
         near.evaluations += outcome.evaluations;
         near.derivatives += outcome.derivatives;
         near.x = outcome.x;
+        let (x, evaluations, derivatives) = (near.x.clone(), near.evaluations, near.derivatives);
+        near.passed.push(Passed { x, evaluations, derivatives });
         let moved = (0..lo.len()).map(|i| (near.x[i] - from[i]).abs() / (hi[i] - lo[i])).fold(0.0, f64::max);
         near.status = outcome.status;
         if desk.stopped() || none_fresh && moved <= SETTLED {

@@ -97,6 +97,19 @@ pub struct RobustSearch {
     pub evaluations: usize,
     /// Derivatives along one variable beside them, of all corners of a set counted likewise.
     pub derivatives: usize,
+    /// Where its climbs ended.
+    pub passed: Vec<Passed>,
+}
+
+/// Where a climb of a robust search ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Passed {
+    /// Variables.
+    pub x: Vec<f64>,
+    /// Evaluations of the robust search until then.
+    pub evaluations: usize,
+    /// Derivatives along one variable beside them.
+    pub derivatives: usize,
 }
 
 /// All given corners of `problem` at `x`, side by side.
@@ -233,7 +246,7 @@ pub fn robust(
 ) -> Result<RobustSearch, NoSearch> {
     let all = corners(of);
     let near = climb_on_slopes(problem, x0, (lo, hi), of, method, desk).map_err(refused)?;
-    let NearCorners { mut x, mut set, mut evaluations, mut derivatives, mut status } = near;
+    let NearCorners { mut x, mut set, mut evaluations, mut derivatives, mut status, mut passed } = near;
     let mut rounds = 0;
     while !desk.stopped() {
         desk.begins(&format!("all {} corners", all.len()));
@@ -263,6 +276,7 @@ pub fn robust(
         derivatives += outcome.derivatives * set.len();
         status = outcome.status;
         x = outcome.x;
+        passed.push(Passed { x: x.clone(), evaluations, derivatives });
         if desk.stopped() {
             break;
         }
@@ -290,6 +304,7 @@ pub fn robust(
         held_at: set.iter().map(Corner::name).collect(),
         evaluations: evaluations + made.evaluations,
         derivatives,
+        passed,
         made,
         rounds,
         step,
