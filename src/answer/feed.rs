@@ -401,15 +401,17 @@ impl Said for FeedAnswer<'_> {
         let race = self.fed_race();
         let driving = if case.inner_drives { "inner" } else { "outer" };
         let whose = match (self.inertia_given, inertia_from(self.design, race)) {
-            (true, _) => "with all that turns with it".to_owned(),
+            (true, _) => " with all that turns with it".to_owned(),
             (false, InertiaFrom::File) => {
-                format!("by races.{race}_inertia_kg_m2 of the file (--inertia says another)")
+                format!(" by races.{race}_inertia_kg_m2 of the file (--inertia says another)")
             }
             (false, InertiaFrom::Guess) => {
-                format!("a guess of the file (races.{race}_inertia_kg_m2; --inertia says another)")
+                format!(", a guess of the file (races.{race}_inertia_kg_m2; --inertia says another)")
             }
             (false, InertiaFrom::Ring) => {
-                format!("the ring alone (the file has no races.{race}_inertia_kg_m2; --inertia says another)")
+                format!(
+                    ", the ring alone (the file has no races.{race}_inertia_kg_m2; --inertia says another)"
+                )
             }
         };
         let next = self.next_step();
@@ -424,7 +426,7 @@ impl Said for FeedAnswer<'_> {
         });
         let about = vec![
             format!(
-                "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m² {whose}, stands under a brake of {}",
+                "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m²{whose}, stands under a brake of {}",
                 Unit::Degree.show(case.stroke_rad, 4),
                 significant(case.inertia_kg_m2, 4),
                 Unit::NewtonMetre.show(case.brake_nm, 4),

@@ -4,10 +4,12 @@ use super::check::{
     CheckRow, REACHED_AT, far_more_than_asked, margin_words, much_friction, people_table, size_line,
 };
 use super::{Finding, Said};
+use crate::clutch::Scenario;
 use crate::design::{Design, shown};
 use crate::follow::Follow;
-use crate::margin::{Demand, Margin, load_state, lowest_capacity};
+use crate::margin::{Demand, Margin, load_state, lowest_capacity, scene_demand, scene_rows};
 use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit, significant};
+use crate::scenario::Settings;
 use crate::size::{Decider, Made, Sized, Tried};
 use serde_json::{Value, json};
 
@@ -23,6 +25,8 @@ pub struct Sizing<'a> {
     end_nm: f64,
     /// What one should not overlook.
     warnings: Vec<String>,
+    /// Rows that are shown only, those of the scenes that do not count among them.
+    shown: Vec<Margin>,
 }
 
 impl<'a> Sizing<'a> {
@@ -34,6 +38,15 @@ impl<'a> Sizing<'a> {
         let end_nm = state.as_ref().map_or(f64::INFINITY, |state| state.curve.end_torque_nm());
         let overruns = state.ok().and_then(|state| design.overruns(&state, &Follow::nobody()).ok());
         let limits = &design.limits;
+        let aside = design
+            .scenarios
+            .iter()
+            .filter(|s| !design.check_scenarios.contains(&s.name) && !s.kind.is_overrun());
+        let of_scene = |scenario: &Scenario| {
+            scene_rows(scenario, &scene_demand(scenario, None, &Settings::default()), limits, false)
+        };
+        let shown = made.margins.iter().filter(|r| !r.required).cloned();
+        let shown = shown.chain(aside.flat_map(of_scene)).collect();
         let asked_nm = limits.largest_torque_nm().unwrap_or(0.0);
         let carries_nm = lowest_capacity(&made.margins, |_| true).map_or(0.0, |(_, nm)| nm.min(end_nm));
         let far = far_more_than_asked(asked_nm, carries_nm);
@@ -49,6 +62,7 @@ impl<'a> Sizing<'a> {
                 .chain(much_friction(design))
                 .chain(no_shaft(2.0 * design.clutch.races.inner_bore_radius_m, asked_nm))
                 .collect(),
+            shown,
         }
     }
 }
@@ -84,7 +98,7 @@ impl Said for Sizing<'_> {
     fn remarks(&self) -> Vec<String> {
         let written =
             self.written.map_or("no design written".to_owned(), |path| format!("written to {}", shown(path)));
-        let shown = shown_broken(&self.sized.made);
+        let shown = shown_broken(&self.shown);
         figures(&self.sized.made)
             .into_iter()
             .chain(self.warnings.clone())
@@ -156,9 +170,9 @@ pub fn taken_inertias(design: &Design) -> [(String, String, String); 2] {
 }
 
 /// The rows that are shown only and would not hold, and what that means, a line for each scene and one for the others.
-fn shown_broken(made: &Made) -> Vec<String> {
+fn shown_broken(margins: &[Margin]) -> Vec<String> {
     let mut lines: Vec<(Option<&str>, Vec<&Margin>)> = Vec::new();
-    for row in made.margins.iter().filter(|r| !r.required && r.computed() && !r.held()) {
+    for row in margins.iter().filter(|r| !r.required && r.computed() && !r.held()) {
         let scene = row.scene.as_deref();
         match lines.iter_mut().find(|(known, _)| *known == scene) {
             Some((_, rows)) => rows.push(row),

@@ -173,8 +173,10 @@ impl Run for NewArgs {
         let rows = |(what, value, from): (&str, String, &str)| (what.to_owned(), value, from.to_owned());
         let inertias = found.iter().flat_map(|found| taken_inertias(&found.made.design));
         let taken = wanted.taken().into_iter().map(rows).chain(inertias);
+        let taken: Vec<_> = taken.collect();
+        let wide = taken.iter().map(|(_, value, _)| value.chars().count()).fold(12, usize::max);
         let lines: String =
-            taken.map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
+            taken.iter().map(|(what, value, from)| format!("  {what:<22} {value:<wide$} {from}\n")).collect();
         if !lines.is_empty() {
             context.answer(&format!(
                 "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"
