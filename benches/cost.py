@@ -48,11 +48,11 @@ def measured(points, nothing):
     curves = of(r"WedgeCurve>::march$")
     at_rest = of(r"margin::curve_at_rest$", r"margin::load::load_state_at$", r"margin::load::load_state$")
     phases = {
-        "the file: values put in, read": of(r"design::edit::with_values$") + of(r"design::Design>::parse_in$"),
+        "the file: values put in, read": of(r"design::form::DesignForm::at$", r"design::edit::with_values$") + of(r"design::Design>::parse_in$"),
         "curves": curves,
-        "rows of the load state": of(r"smooth::load_rows$", r"margin::load_margins$"),
+        "rows of the load state": of(r"smooth::load_rows$", r"margin::load_margins$", r"margin::load::rows$"),
         "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - (curves - at_rest), 0.0),
-        "pure-rolling runs": of(r"demand::roll$", r"demand::demand_at$"),
+        "pure-rolling runs": of(r"demand::roll$") or of(r"rolling::rolling$") + of(r"rolling::rolling_tracked$"),
     }
     if not any(phases.values()):
         sys.exit("cost.py: no function of this program by name: build with CARGO_PROFILE_RELEASE_STRIP=none")
