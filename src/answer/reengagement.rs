@@ -3,7 +3,6 @@
 mod words;
 
 use super::check::overrun::outer_turns;
-use super::inertia::{InertiaFrom, inertia_from};
 use super::left_out::{LeftOut, left_out_of};
 use super::{Finding, Said};
 use crate::answer::check::ends_first;
@@ -368,31 +367,6 @@ impl ReengagementAnswer<'_> {
             .number("path_in_all_mm", "In all", Unit::Millimetre, 3, |b| b.path_in_all_m)
             .json("held", |b| self.bears_it(b))
             .json("ended", |b| b.ended.map(Stop::name))
-    }
-
-    /// Energy over slip, `points` in mm and J, with what the windup takes up; `None`: that is not known, or there are too few points.
-    fn energy_plot(&self, points: Vec<[f64; 2]>) -> Option<Plot> {
-        let [most_j, end_j] = self.takes_up_j?;
-        let mut plot = Plot::new("Slip until the friction is back, mm", "Energy, J");
-        (plot.log_x, plot.log_y) = (true, true);
-        if points.len() < 3 {
-            return None;
-        }
-        plot.curves.push(Curve { dots: true, ..Curve::new("", points) });
-        let limit = self.bears.as_ref().map_or("limits", |(_, code)| code);
-        Some(plot.level(most_j, &format!("taken up to {limit}")).level(end_j, "to the end of the curve"))
-    }
-
-    /// That the outer race turns alone, where nobody has said what turns with it: it is the lightest there can be, and sets speed and blow.
-    fn bare_ring(&self) -> Option<String> {
-        let nobody = !self.outer_given && !self.case.outer_held;
-        (nobody && inertia_from(self.design, "outer") == InertiaFrom::Ring).then(|| {
-            format!(
-                "The outer race turns as a bare ring, {} kg m²: the file names nothing that turns with it (races.outer_inertia_kg_m2), and this \
-                 decides the answer; --outer-inertia says what does, --outer-held that it is held",
-                significant(self.case.inertia_kg_m2[1], 4)
-            )
-        })
     }
 
     /// The friction of the slip, and its share of what the torque needs.

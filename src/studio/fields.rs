@@ -112,7 +112,9 @@ mod tests {
     #[test]
     fn an_allowed_gap_slides_about_the_gap() {
         let text = include_str!("../../designs/series-833-small.toml");
-        let design = Design::parse(text, "a.toml").unwrap();
+        let text = with_setting(text, "limits.gap_nominal_mm", "8.46").unwrap();
+        let text = with_setting(&text, "limits.gap_peak_mm", "8.6").unwrap();
+        let design = Design::parse(&text, "a.toml").unwrap();
         let of = |path: &str| fields(&design).into_iter().find(|f| f.path == path).unwrap();
         for path in ["limits.gap_nominal_mm", "limits.gap_peak_mm"] {
             let field = of(path);
