@@ -166,7 +166,9 @@ impl Design {
                 Ok((common(seconds, &a.left_out, object!(a.error_relative))?, json(&a.body)?))
             }
             Err(NoStiffness::NoClutch(why)) => Err(errors::no_clutch(py, &why)),
-            Err(why @ (NoStiffness::Torque(_) | NoStiffness::Pressure(_))) => Err(PyValueError::new_err(why.to_string())),
+            Err(why @ (NoStiffness::Torque(_) | NoStiffness::Pressure(_))) => {
+                Err(PyValueError::new_err(why.to_string()))
+            }
             Err(NoStiffness::Stopped) => Err(stopped()),
         }
     }

@@ -243,7 +243,7 @@ class Overrun:
     """The overruns that the design names."""
     warning: str | None
     """A warning where the equilibrium does not stay at a speed that the design names, or, where it names none, at any;
-    ``None`` where it does."""
+    ``None`` where it does. A note where only a limit names that speed and the swing takes longer than 1 s to grow tenfold."""
     passing: str | None
     """A note where that is so at other speeds only, on the way through them."""
 
