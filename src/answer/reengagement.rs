@@ -2,10 +2,9 @@
 
 mod words;
 
-use super::check::overrun::outer_turns;
+use super::check::{ends_first, overrun::outer_turns};
 use super::left_out::{LeftOut, left_out_of};
 use super::{Finding, Said};
-use crate::answer::check::ends_first;
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
@@ -14,7 +13,6 @@ use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, When, lift_off_rad_s, load_margins, load_state,
     lowest_capacity,
 };
-
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
 use crate::report::plot::{Curve, Dash};
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
