@@ -1127,6 +1127,8 @@ class FilmOverrun(_Common):
     """The oil."""
     race: str
     """Race that runs, ``inner`` or ``outer``."""
+    picked: str
+    """Which race and speeds were taken, and why."""
     composite_roughness_um: float
     """Rq of both bodies together."""
     lift_off_rpm: float | None
@@ -1314,6 +1316,8 @@ class Sharing(_Common):
     """Torque up to which the clutch carries, N m."""
     end_reason: str | None
     """Why it carries no more."""
+    beyond: dict[str, Any] | None
+    """Beyond the end of a sprag, as the races are turned on: torque, who goes over, what remains; ``None``: none does."""
     sprags: tuple[SharingSprag, ...]
     """Each sprag."""
     turn: tuple[dict[str, Any], ...]
@@ -1346,6 +1350,14 @@ class SceneSprag:
     """What it lacks to its races before it engages, um."""
     friction: float
     """Its static friction coefficient."""
+    state: str
+    """What became of it, in a word."""
+    order: int | None
+    """Its place among those that catch, from 1; ``None``: it never does."""
+    over_at_s: float | None
+    """When it goes over its highest place, s."""
+    gone_at_s: float | None
+    """When it has lost contact after that, s."""
     idle: str | None
     """Why it cannot carry; ``None``: it can. Then the fields below are ``None``."""
     catches_s: float | None
@@ -1358,6 +1370,8 @@ class SceneSprag:
     """Largest normal force over the mean of all places while that is loaded."""
     largest_share_at_s: float | None
     """When, s."""
+    used_friction: float | None
+    """The larger of the two below."""
     used_friction_inner: float | None
     """Largest tangential over normal force at the inner contact under load."""
     used_friction_outer: float | None
@@ -1402,6 +1416,22 @@ class SharingScene(_Common):
     """Its number."""
     largest_share_at_s: float | None
     """When, s."""
+    share_at_rest: float | None
+    """Largest share when the scene begins."""
+    share_at_rest_round: float | None
+    """The same between races that stay round."""
+    bending_left_out: float | None
+    """Part of the bending that the inertia of the rings leaves out; ``None``: races do not bend here."""
+    lowest_mode_inner_hz: float | None
+    """Lowest natural frequency of the inner race's ring, Hz."""
+    lowest_mode_outer_hz: float | None
+    """The same of the outer race's, Hz."""
+    scene_hz: float | None
+    """Frequency of the scene beside which these are held, Hz."""
+    over: int
+    """How many sprags go over their highest place."""
+    gone: int
+    """How many have lost contact after that."""
     bearing_max_n: float | None
     """Largest force on the bearings of the races, N; ``None``: their axes meet and stay, as of those below."""
     bearing_max_at_s: float | None
