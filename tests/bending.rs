@@ -1,26 +1,20 @@
 //! Sprags one by one between races that bend: beside the one-sprag model, statics, the energy balance and an independent script.
 
-use sprag_design::clutch::{GivenSprag, Scenario, ScenarioKind, Sharing};
+#[path = "common/scenes.rs"]
+mod scenes;
+
+use scenes::{lasting, of_scripts};
+use sprag_design::WedgeCurve;
+use sprag_design::clutch::{GivenSprag, Scenario, Sharing};
 use sprag_design::dynamics::Stop;
 use sprag_design::scenario::Settings;
 use sprag_design::sharing::{Asked, Unlike};
 use sprag_design::sprags::{Many, each_sprag};
-use sprag_design::{Design, WedgeCurve};
 
 fn scene(file: &str, name: &str) -> Scenario {
-    let path = format!("{}/designs/{file}.toml", env!("CARGO_MANIFEST_DIR"));
-    let mut scene = Design::read(path.as_ref()).unwrap().scenario(name).unwrap().clone();
+    let mut scene = scenes::scene(file, name);
     scene.clutch.races.eccentricity = None;
     scene
-}
-
-fn lasting(scene: &mut Scenario, seconds: f64) {
-    match &mut scene.kind {
-        ScenarioKind::TorsionalExcitation { duration_s, .. } | ScenarioKind::Transient { duration_s, .. } => {
-            *duration_s = seconds;
-        }
-        _ => panic!(),
-    }
 }
 
 /// Sprags alike but for a rounding of their places: all the equations of twelve sprags between races that bend, and the paper's model.
@@ -147,13 +141,7 @@ fn unlike_sprags_between_races_that_bend_balance_their_energy() {
 /// each sprag between its own tracks, so what differs is u/OA, 3e-3 for the 30 um of the one pressed least.
 #[test]
 fn three_sprags_between_races_that_bend_move_as_an_independent_script_has_it() {
-    let mut scene = scene("huang2017-single-arc", "low-6");
-    scene.clutch.sprags.mass_kg *= 1e-4;
-    scene.clutch.sprags.inertia_kg_m2 *= 1e-4;
-    scene.clutch.spring.stiffness_nm_per_rad = 0.0;
-    scene.clutch.friction.static_ = 0.5;
-    let ScenarioKind::TorsionalExcitation { duration_s, preload_nm, .. } = &mut scene.kind else { panic!() };
-    (*duration_s, *preload_nm) = (0.004, 10.0);
+    let scene = of_scripts(0.004, 10.0);
     let gone = |index: usize| GivenSprag { index, missing: true, ..GivenSprag::default() };
     let mut given: Vec<_> = (0..12).filter(|i| ![0, 3, 8].contains(i)).map(gone).collect();
     given.push(GivenSprag { index: 3, size_m: Some(2e-6), ..GivenSprag::default() });

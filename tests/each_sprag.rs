@@ -1,16 +1,15 @@
 //! Sprags one by one in a scene: alike they are the one-sprag model, unlike they are what statics and an independent script say.
 
-use sprag_design::clutch::{Friction, GivenSprag, Scenario, ScenarioKind, Sharing};
+#[path = "common/scenes.rs"]
+mod scenes;
+
+use scenes::scene;
+use sprag_design::clutch::{Friction, GivenSprag, ScenarioKind, Sharing};
 use sprag_design::dynamics::{ManySample, RunSettings, Sample, SpragCourse, Stop, run, settled_together};
 use sprag_design::scenario::{Settings, prepare};
 use sprag_design::sharing::{Asked, Bears, Unlike};
 use sprag_design::sprags::{EachSprag, Many, each_sprag};
 use sprag_design::{Design, WedgeCurve};
-
-fn scene(file: &str, name: &str) -> Scenario {
-    let path = format!("{}/designs/{file}.toml", env!("CARGO_MANIFEST_DIR"));
-    Design::read(path.as_ref()).unwrap().scenario(name).unwrap().clone()
-}
 
 /// Scenes of all designs with the sprags one by one: one for all, and every sprag by itself. Slip, lift-off, junctions, speed, damped
 /// contacts, contacts B that hold whatever that takes.

@@ -1,6 +1,10 @@
 //! Sprags one by one between races whose axes do not meet or give way: beside the one-sprag model, statics, hand and an independent script.
 
-use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, Scenario, ScenarioKind, Sharing, Standing};
+#[path = "common/scenes.rs"]
+mod scenes;
+
+use scenes::{lasting, of_scripts, scene};
+use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, ScenarioKind, Sharing, Standing};
 use sprag_design::dynamics::Stop;
 use sprag_design::scenario::Settings;
 use sprag_design::sharing::{Asked, Unlike};
@@ -8,22 +12,8 @@ use sprag_design::sprags::Many;
 use sprag_design::wedge::AxisTurns;
 use sprag_design::{Design, WedgeCurve};
 
-fn scene(file: &str, name: &str) -> Scenario {
-    let path = format!("{}/designs/{file}.toml", env!("CARGO_MANIFEST_DIR"));
-    Design::read(path.as_ref()).unwrap().scenario(name).unwrap().clone()
-}
-
 fn off(offset_m: f64, turning: bool, carrier: Carrier) -> Option<Eccentricity> {
     Some(Eccentricity { offset_m, turning, carrier, stiffness_n_per_m: f64::INFINITY })
-}
-
-fn lasting(scene: &mut Scenario, seconds: f64) {
-    match &mut scene.kind {
-        ScenarioKind::TorsionalExcitation { duration_s, .. } | ScenarioKind::Transient { duration_s, .. } => {
-            *duration_s = seconds;
-        }
-        _ => panic!(),
-    }
 }
 
 /// Sprags alike, the axes apart by next to nothing, held or on bearings: the sums over twelve sprags in their own gaps are those of one.
@@ -192,13 +182,7 @@ fn sprags_off_centre_that_slip_and_lift_balance_their_energy() {
 /// By `tests/reference/off_centre.py`.
 #[test]
 fn a_race_that_runs_out_on_bearings_moves_as_an_independent_script_has_it() {
-    let mut scene = scene("huang2017-single-arc", "low-6");
-    scene.clutch.sprags.mass_kg *= 1e-4;
-    scene.clutch.sprags.inertia_kg_m2 *= 1e-4;
-    scene.clutch.spring.stiffness_nm_per_rad = 0.0;
-    scene.clutch.friction.static_ = 0.5;
-    let ScenarioKind::TorsionalExcitation { duration_s, preload_nm, .. } = &mut scene.kind else { panic!() };
-    (*duration_s, *preload_nm) = (0.001, 10.0);
+    let mut scene = of_scripts(0.001, 10.0);
     scene.clutch.races.eccentricity = off(5e-6, false, Carrier::InnerRace);
     let larger = GivenSprag { index: 3, size_m: Some(1e-6), ..GivenSprag::default() };
     let sharing = Sharing {

@@ -2,17 +2,14 @@
 
 mod words;
 
-use super::check::{ends_first, overrun::outer_turns};
+use super::check::{Capacity, overrun::outer_turns};
 use super::left_out::{LeftOut, left_out_of};
 use super::{Finding, Said};
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
 use crate::follow::Follow;
-use crate::margin::{
-    Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, When, lift_off_rad_s, load_margins, load_state,
-    lowest_capacity,
-};
+use crate::margin::{Capacities, LIFT_OFF_TO_RAD_S, LoadState, lift_off_rad_s, load_margins, load_state};
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
 use crate::report::plot::{Curve, Dash};
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
@@ -122,10 +119,8 @@ impl std::error::Error for NoReengagement {}
 /// Peak torque that every limit bears, N m, and the limit that sets it.
 pub(super) fn peak_torque_borne(design: &Design, state: &LoadState) -> Option<(f64, String)> {
     let rows = load_margins(design, &design.limits, Capacities::Wanted, state);
-    // A limit that is not reached before the curve ends sets nothing, but for the end itself.
-    let end_nm = state.curve.end_torque_nm();
-    let sets = |r: &Margin| r.limit.when != When::Nominal && !ends_first(r, end_nm);
-    lowest_capacity(&rows, sets).map(|(r, nm)| (nm, r.code()))
+    let [_, peak] = Capacity::nominal_and_peak(&rows, state.curve.end_torque_nm());
+    peak.map(|c| (c.torque_capacity_nm, c.code))
 }
 
 /// The scenario that carries torque at the largest speed, and that speed, rad/s; `None`: no such scenario turns.

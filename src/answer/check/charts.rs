@@ -2,7 +2,6 @@
 
 use super::CheckAnswer;
 use crate::answer::stiffness::junctions;
-use crate::design::Design;
 use crate::margin::{DemandCourse, courses};
 use crate::report::{Curve, Dash, Plot, Unit};
 use crate::wedge::{PLOTTED, StaticPoint};
@@ -13,7 +12,8 @@ const CUT_AT: f64 = 1.5;
 const NAMED: usize = 5;
 
 /// Demand over allowable of all limits against torque, those that set the capacities marked.
-pub(super) fn limits(design: &Design, check: &CheckAnswer) -> Plot {
+pub(super) fn limits(check: &CheckAnswer) -> Plot {
+    let design = &check.design;
     let curve = &check.state.curve;
     let set_by = check.body.capacities();
     let limits = &design.limits;
@@ -54,13 +54,13 @@ pub(super) fn limits(design: &Design, check: &CheckAnswer) -> Plot {
 }
 
 /// Friction demand over torque, as tangents and as angles; cam rise over rotation.
-pub(super) fn gripping(design: &Design, check: &CheckAnswer) -> [Plot; 3] {
+pub(super) fn gripping(check: &CheckAnswer) -> [Plot; 3] {
     let curve = &check.state.curve;
     let samples = curve.samples(f64::INFINITY, PLOTTED);
     let over = |value: &dyn Fn(&crate::wedge::StaticPoint) -> f64| {
         samples.iter().map(|(p, _)| [p.torque_nm, value(p)]).collect::<Vec<_>>()
     };
-    let friction = &design.clutch.friction;
+    let friction = &check.design.clutch.friction;
     let mut tangents = Plot::new("Torque, Nm", "Tangential over normal force")
         .curve("inner contact, tan ω", over(&|p| p.tan_omega))
         .curve("outer contact, tan ν", over(&|p| p.tan_nu))

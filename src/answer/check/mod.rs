@@ -101,11 +101,11 @@ impl Answer for CheckAnswer {
     }
 
     fn text(&self, screen: Screen) -> String {
-        text::text(&self.design, self, screen)
+        text::text(self, screen)
     }
 
     fn page(&self, provenance: &Provenance) -> Page {
-        page::page(&self.design, self, provenance)
+        page::page(self, provenance)
     }
 
     fn envelope(&self, run_time_s: f64) -> Envelope<'_, &CheckBody> {
@@ -147,7 +147,7 @@ impl Answer for DesignSheet<'_> {
     }
 
     fn page(&self, provenance: &Provenance) -> Page {
-        sheet::page(&self.0.design, self.0, provenance)
+        sheet::page(self.0, provenance)
     }
 
     fn envelope(&self, run_time_s: f64) -> Envelope<'_, &CheckBody> {

@@ -9,12 +9,8 @@ use crate::margin::Margin;
 use crate::report::{Bar, Bars, Column, Page, Table, Tone, Unit, greek};
 
 /// A page with verdict, torque capacities and the dimensioned drawing, and the remarks that come later.
-pub(super) fn answered(
-    title: &str,
-    design: &Design,
-    check: &CheckAnswer,
-    command: &str,
-) -> (Page, Vec<String>) {
+pub(super) fn answered(title: &str, check: &CheckAnswer, command: &str) -> (Page, Vec<String>) {
+    let design = &check.design;
     let page = opened(title, design, command, |page| {
         page.verdict(check.body.pass, &check.body.verdict());
         page.list(rated(design).into_iter().chain(check.body.capacity_lines()));
@@ -34,13 +30,14 @@ fn rated(design: &Design) -> Option<String> {
 }
 
 /// The page.
-pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance) -> Page {
+pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
+    let design = &check.design;
     let answer = check.envelope(provenance.run_time_s);
-    let (mut page, remarks) = answered("Margin check", design, check, &provenance.command);
+    let (mut page, remarks) = answered("Margin check", check, &provenance.command);
     let end_nm = check.state.curve.end_torque_nm();
     page.heading("Limits against torque");
     page.figure(
-        &charts::limits(design, check).to_figure(),
+        &charts::limits(check).to_figure(),
         "Demand over allowable of every limit that depends on torque; a limit is reached at 1. Full lines: the limits that \
          set the torque capacities, named at their torque; dashed: the next required limits; dotted: shown only; grey: \
          farther away. Cut off above 1.5.",
@@ -68,7 +65,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     page.heading("Gripping");
     let rest = pose_at_rest("first contact, no load", design, &check.state.profile);
     let centres = drawing(design, vec![rest]).centres_figure();
-    let [tangents, angles, rise] = charts::gripping(design, check);
+    let [tangents, angles, rise] = charts::gripping(check);
     page.figures(&[
         (half(tangents), "Static demand on friction at both contacts; grip is lost where it reaches μs."),
         (half(angles), "The same as angles: ω and ν lie between the strut AB and OA, OB; friction holds up to arctan μs."),

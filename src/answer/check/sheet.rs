@@ -12,11 +12,12 @@ use crate::report::{Cell, Page, Plot, Rows, Table, Unit, greek};
 use crate::wedge::{PLOTTED, StaticPoint};
 
 /// The page.
-pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance) -> Page {
+pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
+    let design = &check.design;
     let answer = check.envelope(provenance.run_time_s);
-    let (mut page, remarks) = answered("Design sheet", design, check, &provenance.command);
+    let (mut page, remarks) = answered("Design sheet", check, &provenance.command);
     let end_nm = check.state.curve.end_torque_nm();
-    curves(&mut page, design, check);
+    curves(&mut page, check);
     page.heading("Margins");
     let statics = check.rows.get(..check.static_rows).unwrap_or(&check.rows);
     page.table(
@@ -28,7 +29,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     if !check.scenes.is_empty() {
         page.heading("Scenes").table(
             "Friction from which on a scene sticks, against its static friction; smallest normal force over the static one.",
-            &scenes(design, check),
+            &scenes(check),
         );
     }
     page.heading("Inputs");
@@ -48,7 +49,8 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     page
 }
 
-fn curves(page: &mut Page, design: &Design, check: &CheckAnswer) {
+fn curves(page: &mut Page, check: &CheckAnswer) {
+    let design = &check.design;
     let limits = &design.limits;
     let asked = limits.largest_torque_nm();
     let up_to = asked.map_or(f64::INFINITY, |t| 1.5 * t);
@@ -70,7 +72,8 @@ fn curves(page: &mut Page, design: &Design, check: &CheckAnswer) {
     ]);
 }
 
-fn scenes(design: &Design, check: &CheckAnswer) -> Table {
+fn scenes(check: &CheckAnswer) -> Table {
+    let design = &check.design;
     let verdict = |name: &String| {
         // Held with the slip margin that is wanted, which is more than to stick.
         let held = check.rows.iter().filter(|r| r.scene.as_ref() == Some(name)).all(Margin::held);

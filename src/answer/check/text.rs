@@ -17,10 +17,10 @@ const SLIP_MARGIN: &str = "Slip rows: demand is the static friction μ that the 
 const SHOWN_ONLY: &str = "Shown: for information alone, without a say in the verdict; `explain` with the limit's name says which key makes it count\n";
 
 /// The answer on a terminal.
-pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> String {
-    let body = &check.body;
+pub(super) fn text(check: &CheckAnswer, screen: Screen) -> String {
+    let (design, body) = (&check.design, &check.body);
     let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(screen);
-    let mut out = format!("{}  {}\n\n{table}\n", design.name, &design.hash.get(..12).unwrap_or(&design.hash));
+    let mut out = format!("{}  {}\n\n{table}\n", design.name, design.short_hash());
     out.push_str(&body.verdict());
     out.push('\n');
     out.push_str(&size_line(design));

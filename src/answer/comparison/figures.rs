@@ -1,8 +1,8 @@
 //! The figures that stand side by side beside the margins.
 
-use crate::answer::check::ends_first;
+use crate::answer::check::Capacity;
 use crate::compare::Subject;
-use crate::margin::{Margin, When, lowest_capacity, overrun_at};
+use crate::margin::overrun_at;
 use crate::report::Unit;
 use crate::wedge::StaticPoint;
 
@@ -40,9 +40,9 @@ const fn figure(
 
 /// Lowest torque at which a required limit of one torque would be reached before the curve ends.
 fn capacity(subject: &Subject, nominal: bool) -> Option<f64> {
-    let end_nm = subject.state.curve.end_torque_nm();
-    let counts = |m: &Margin| (m.limit.when == When::Nominal) == nominal && !ends_first(m, end_nm);
-    lowest_capacity(&subject.margins, counts).map(|(_, nm)| nm)
+    let both = Capacity::nominal_and_peak(&subject.margins, subject.state.curve.end_torque_nm());
+    let [of_nominal, of_peak] = both.map(|c| c.map(|c| c.torque_capacity_nm));
+    if nominal { of_nominal } else { of_peak }
 }
 
 fn at_nominal(subject: &Subject, value: fn(&StaticPoint) -> f64) -> Option<f64> {

@@ -1,0 +1,31 @@
+//! Scenes of the designs, as tests of sprags one by one change them.
+#![allow(dead_code)]
+
+use sprag_design::Design;
+use sprag_design::clutch::{Scenario, ScenarioKind};
+
+pub fn scene(file: &str, name: &str) -> Scenario {
+    let path = format!("{}/designs/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+    Design::read(path.as_ref()).unwrap().scenario(name).unwrap().clone()
+}
+
+pub fn lasting(scene: &mut Scenario, seconds: f64) {
+    match &mut scene.kind {
+        ScenarioKind::TorsionalExcitation { duration_s, .. } | ScenarioKind::Transient { duration_s, .. } => {
+            *duration_s = seconds;
+        }
+        _ => panic!(),
+    }
+}
+
+/// The single arc's scene low-6 as the independent scripts have it: no springs, sprags next to without inertia, no slip.
+pub fn of_scripts(seconds: f64, preload: f64) -> Scenario {
+    let mut scene = scene("huang2017-single-arc", "low-6");
+    scene.clutch.sprags.mass_kg *= 1e-4;
+    scene.clutch.sprags.inertia_kg_m2 *= 1e-4;
+    scene.clutch.spring.stiffness_nm_per_rad = 0.0;
+    scene.clutch.friction.static_ = 0.5;
+    let ScenarioKind::TorsionalExcitation { duration_s, preload_nm, .. } = &mut scene.kind else { panic!() };
+    (*duration_s, *preload_nm) = (seconds, preload);
+    scene
+}
