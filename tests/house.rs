@@ -17,8 +17,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("lubrication", &[]),
     // Values in SI and the contact laws by name; radii as run follow from those as made by a press fit.
     ("clutch", &["material", "profile", "race", "lubrication"]),
-    // Files: no law of physics and no allowable. The narrowest working sprag is drawn where a file names no flanks.
-    ("design", &["numeric", "material", "profile", "lubrication", "clutch"]),
+    // Values, and the units in which they are written: no TOML.
+    ("design", &["material", "clutch"]),
+    // TOML: no law of physics and no allowable. The narrowest working sprag is drawn where a file names no flanks.
+    ("file", &["numeric", "material", "profile", "lubrication", "clutch", "design"]),
     // Strangers to one another: no law of row 2 knows another law, a design or a sprag's profile.
     ("kinematics", &["numeric"]),
     ("contact", &["material", "numeric"]),
@@ -59,20 +61,23 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Loads of a life on the static curve; strengths are the file's.
     ("life", &["numeric", "lubrication", "clutch", "design", "friction", "wedge", "margin"]),
     // Never a contact, a wedge or a path. Scenes run as fidelity plans them; a centroid is made real on the profile itself.
-    ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
+    (
+        "optimise",
+        &["follow", "numeric", "profile", "clutch", "design", "file", "scenario", "fidelity", "margin"],
+    ),
     ("journal", &["optimise"]),
     // Points of a box, and whatever the margins say there.
     ("sweep", &["follow", "numeric", "design", "margin", "optimise"]),
     // Asks for margins and static points as they are; knows no law.
-    ("identify", &["follow", "numeric", "clutch", "design", "wedge", "margin"]),
+    ("identify", &["follow", "numeric", "clutch", "design", "file", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.
     ("size", &["numeric", "material", "clutch", "design", "profile", "scenario", "margin"]),
     // Files beside one another, then whatever the margins say.
-    ("compare", &["clutch", "design", "profile", "wedge", "scenario", "margin"]),
+    ("compare", &["clutch", "design", "file", "profile", "wedge", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile", "clutch"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
-    ("export", &["numeric", "material", "profile", "clutch", "design", "wedge", "element"]),
+    ("export", &["numeric", "material", "profile", "clutch", "design", "file", "wedge", "element"]),
     // An outline is a profile and flanks; races are two radii, so no design.
     ("import", &["profile"]),
     // What is computed is put into words, units and pages here: all but the command.
@@ -86,6 +91,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "profile",
             "clutch",
             "design",
+            "file",
             "contact",
             "race",
             "wedge",
@@ -114,16 +120,16 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "studio",
         &[
-            "answer", "follow", "clutch", "design", "wedge", "dynamics", "scenario", "margin", "optimise",
-            "report",
+            "answer", "follow", "clutch", "design", "file", "wedge", "dynamics", "scenario", "margin",
+            "optimise", "report",
         ],
     ),
     (
         "cli",
         &[
-            "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "accuracy", "margin", "optimise", "journal", "sweep", "identify", "size", "report",
-            "export", "import", "studio",
+            "answer", "follow", "material", "profile", "clutch", "design", "file", "wedge", "dynamics",
+            "scenario", "element", "accuracy", "margin", "optimise", "journal", "sweep", "identify", "size",
+            "report", "export", "import", "studio",
         ],
     ),
 ];
@@ -135,19 +141,26 @@ const OUTSIDE: &[&str] =
 /// Exceptions, each with its reason.
 const MAY_TOUCH: &[(&str, &str)] = &[
     // A design is a file with its histories: errors name file, line and key, so the room opens these itself, here alone.
-    ("src/design/open.rs", "std::fs"),
+    ("src/file/open.rs", "std::fs"),
     // The platform that the program was compiled for is no environment.
     ("src/export/fmu/archive.rs", "std::env"),
 ];
 
 /// Rooms where a length in mm, an angle in degrees, a pressure in MPa or a speed in rev/min is at home: files, pages, drawings.
-const FACES: &[&str] = &["design", "report", "export", "import", "answer", "studio", "cli"];
+const FACES: &[&str] = &["file", "report", "export", "import", "answer", "studio", "cli"];
 
 /// Files elsewhere that name such a unit, each with its reason.
 const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/profile/mod.rs", "words of an error"),
     ("src/profile/unclosed.rs", "words of an error"),
     ("src/clutch/law.rs", "the roller law's coefficient is a number of mm and N by its definition"),
+    ("src/design/units.rs", "the change of a file's units to SI"),
+    ("src/design/limits.rs", "the table of a file's limits: keys and units"),
+    (
+        "src/design/objective.rs",
+        "the table of objectives: their units, and links between the file's variables",
+    ),
+    ("src/design/mod.rs", "names of those"),
     ("src/scenario/figures.rs", "the table of figures: the keys of JSON and CSV"),
     ("src/margin/table.rs", "the table of limits: their keys and units"),
     ("src/margin/row.rs", "keys of that table"),

@@ -8,11 +8,9 @@ use super::goal::{Goal, Measure, measures};
 use super::grid::made;
 use super::smooth;
 use crate::clutch::Scenario;
-use crate::design::{
-    Design, DesignForm, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content,
-    with_limits, with_values,
-};
+use crate::design::{Design, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize};
 use crate::fidelity::{self, Effort};
+use crate::file::{DesignForm, EditError, content, with_limits, with_values};
 use crate::margin::{
     Capacities, LoadState, Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins,
     scene_margins, scene_rows, unlike_margins,
