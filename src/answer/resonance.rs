@@ -42,17 +42,26 @@ pub struct ResonanceAnswer<'a> {
 }
 
 /// Why there are none.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoResonance {
     /// The scenario has no start.
+    #[error("{0}")]
     NoStart(NoScenario),
     /// It is no torsional excitation.
+    #[error("the scenario has no torsional excitation, so nothing that repeats")]
     NoExcitation,
     /// A drivetrain takes part, which has motions of its own.
+    #[error(
+        "a [[drivetrain]] takes part in the scenario, and its rotors, shafts and orders have motions of \
+         their own, which resonance does not look for: simulate runs the scenario with them; drivetrain = \
+         [] in the scenario leaves them out"
+    )]
     Drivetrain,
     /// A frequency, an amplitude or the tolerance is out of its range.
+    #[error("{0}")]
     Setting(BadSetting),
     /// Stopped from outside.
+    #[error("stopped")]
     Stopped,
 }
 
@@ -69,25 +78,6 @@ impl ResonanceQuestion {
         all_in_range("amplitude (Nm)", &self.amplitudes_nm, [f64::MIN_POSITIVE, 1e9])
     }
 }
-
-impl std::fmt::Display for NoResonance {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoStart(why) => why.fmt(f),
-            Self::NoExcitation => {
-                f.write_str("the scenario has no torsional excitation, so nothing that repeats")
-            }
-            Self::Drivetrain => f.write_str(
-                "a [[drivetrain]] takes part in the scenario, and its rotors, shafts and orders have motions of their own, which resonance \
-                 does not look for: simulate runs the scenario with them; drivetrain = [] in the scenario leaves them out",
-            ),
-            Self::Setting(bad) => bad.fmt(f),
-            Self::Stopped => f.write_str("stopped"),
-        }
-    }
-}
-
-impl std::error::Error for NoResonance {}
 
 /// A scene to begin with, for a clutch that is asked to carry `torque_nm`.
 pub fn example(torque_nm: f64) -> String {

@@ -82,29 +82,18 @@ pub struct WedgeCurve {
 }
 
 /// Why a curve cannot be built at all.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoCurve {
     /// First contact at this speed lies beyond the profile or the sprag has rolled over.
+    #[error("no first contact at this speed: it lies beyond the profile, or the sprag has rolled over")]
     NoFirstContact,
     /// A closure did not settle.
+    #[error("a point of the curve did not converge")]
     NoConvergence,
     /// The elastic laws cannot be set up.
+    #[error("{0}")]
     NoElastic(NoElastic),
 }
-
-impl std::fmt::Display for NoCurve {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoFirstContact => f.write_str(
-                "no first contact at this speed: it lies beyond the profile, or the sprag has rolled over",
-            ),
-            Self::NoConvergence => f.write_str("a point of the curve did not converge"),
-            Self::NoElastic(why) => write!(f, "{why}"),
-        }
-    }
-}
-
-impl std::error::Error for NoCurve {}
 
 impl WedgeCurve {
     /// alpha at first contact at this speed, rad (0 at rest).

@@ -36,7 +36,6 @@ use body::Source;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use serde_json::json;
-use std::fmt;
 
 /// A design held against each of its limits. As JSON it is the object of `check --json` without the keys that all commands
 /// share; those are fields here.
@@ -156,24 +155,15 @@ impl Answer for DesignSheet<'_> {
 }
 
 /// Why a design was not checked.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoCheck {
     /// There is no clutch to speak of.
+    #[error("{0}")]
     NoClutch(NoMargins),
     /// [`Follow`] was stopped.
+    #[error("stopped before every margin was known")]
     Stopped,
 }
-
-impl fmt::Display for NoCheck {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoClutch(why) => why.fmt(f),
-            Self::Stopped => write!(f, "stopped before every margin was known"),
-        }
-    }
-}
-
-impl std::error::Error for NoCheck {}
 
 impl Design {
     /// Hold the design against each of its limits, all scenarios side by side: rows, verdict, torque capacities, overrun.

@@ -5,7 +5,6 @@ use crate::dynamics::History;
 use crate::follow::Follow;
 use crate::report::plain;
 use crate::scenario::{Settings, TOLERANCES};
-use std::fmt;
 
 /// Shortest step that makes sense, s: below, rounding of the time rules.
 const SHORTEST_STEP_S: f64 = 1e-9;
@@ -57,7 +56,8 @@ pub struct SimulationSettings {
 }
 
 /// A setting that makes no sense.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{} {}: allowed: {allowed}", .setting.name(), plain(*.found, 15))]
 pub struct RefusedSetting {
     /// Which one, a field of [`SimulationSettings`].
     pub setting: Setting,
@@ -88,15 +88,6 @@ impl Setting {
         }
     }
 }
-
-impl fmt::Display for RefusedSetting {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // More digits than anybody types.
-        write!(f, "{} {}: allowed: {}", self.setting.name(), plain(self.found, 15), self.allowed)
-    }
-}
-
-impl std::error::Error for RefusedSetting {}
 
 impl SimulationSettings {
     /// Refuse a tolerance, a step, a window that makes no sense in any scene.

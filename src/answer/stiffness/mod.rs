@@ -26,7 +26,6 @@ use crate::report::Table;
 use crate::wedge::{RollOver, SMALLEST_TORQUE_NM, StaticPoint, WedgeCurve};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
-use std::fmt;
 
 /// Rows of an even table.
 const EVEN_ROWS: usize = 20;
@@ -81,38 +80,28 @@ impl Serialize for StiffnessAnswer {
 }
 
 /// Why there are no curves.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoStiffness {
     /// There is no clutch to speak of.
+    #[error("{0}")]
     NoClutch(NoMargins),
     /// A torque, N m, that is none or smaller than the curve resolves.
+    #[error("a torque of {}", allowed_torque(*.0))]
     Torque(f64),
     /// The pressure along the length was not found.
+    #[error("no pressure along the length: {0}")]
     Pressure(ContactError),
     /// [`Follow`] was stopped.
+    #[error("stopped before every curve was known")]
     Stopped,
 }
 
-impl fmt::Display for NoStiffness {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoClutch(why) => why.fmt(f),
-            Self::Torque(torque) if torque.abs() < SMALLEST_TORQUE_NM => {
-                write!(f, "a torque of {torque:e} Nm is too small: allowed from {SMALLEST_TORQUE_NM:e} Nm up")
-            }
-            Self::Torque(torque) => {
-                write!(
-                    f,
-                    "a torque of {torque} Nm: allowed are finite ones from {SMALLEST_TORQUE_NM:e} Nm up"
-                )
-            }
-            Self::Pressure(why) => write!(f, "no pressure along the length: {why}"),
-            Self::Stopped => write!(f, "stopped before every curve was known"),
-        }
+fn allowed_torque(nm: f64) -> String {
+    match nm.abs() < SMALLEST_TORQUE_NM {
+        true => format!("{nm:e} Nm is too small: allowed from {SMALLEST_TORQUE_NM:e} Nm up"),
+        false => format!("{nm} Nm: allowed are finite ones from {SMALLEST_TORQUE_NM:e} Nm up"),
     }
 }
-
-impl std::error::Error for NoStiffness {}
 
 impl StiffnessSettings {
     /// Refuse torques that no curve is read at.
