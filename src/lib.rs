@@ -103,6 +103,9 @@
 #![cfg_attr(feature = "report", doc = include_str!("../examples/first_steps.rs"))]
 //! ```
 
+#[macro_use]
+mod named;
+
 #[cfg(feature = "validation")]
 pub mod accuracy;
 #[cfg(feature = "report")]

@@ -7,29 +7,21 @@ use super::quick::lowest;
 use super::table::{ArcTable, levelled, point};
 use crate::numeric::root;
 
-/// Why the curve ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EndReason {
-    /// The contact reaches the end of the last arc.
-    OffProfile,
-    /// Torque has its maximum: beyond it the sprag rolls over.
-    RollsOver,
-    /// No equilibrium was found.
-    NoConvergence,
-    /// Nobody asked for the arcs beyond.
-    NotBuilt,
-}
-
-impl EndReason {
-    /// Name for reports and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::OffProfile => "off-profile",
-            Self::RollsOver => "rolls-over",
-            Self::NoConvergence => "no-convergence",
-            Self::NotBuilt => "not-built",
-        }
+named! {
+    /// Why the curve ends.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum EndReason {
+        /// The contact reaches the end of the last arc.
+        OffProfile = "off-profile",
+        /// Torque has its maximum: beyond it the sprag rolls over.
+        RollsOver = "rolls-over",
+        /// No equilibrium was found.
+        NoConvergence = "no-convergence",
+        /// Nobody asked for the arcs beyond.
+        NotBuilt = "not-built",
     }
+    /// Name for reports and JSON.
+    pub fn name;
 }
 
 /// What dynamics needs at one alpha. Pure numbers, m, N; slopes are by alpha.

@@ -67,26 +67,19 @@ pub struct RefusedSetting {
     pub allowed: String,
 }
 
-/// A field of [`SimulationSettings`] that may be refused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Setting {
-    /// [`SimulationSettings::tolerance`].
-    Tolerance,
-    /// [`SimulationSettings::step_s`].
-    Step,
-    /// [`SimulationSettings::window_s`].
-    Window,
-}
-
-impl Setting {
-    /// Its field.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tolerance => "tolerance",
-            Self::Step => "step_s",
-            Self::Window => "window_s",
-        }
+named! {
+    /// A field of [`SimulationSettings`] that may be refused.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Setting {
+        /// [`SimulationSettings::tolerance`].
+        Tolerance = "tolerance",
+        /// [`SimulationSettings::step_s`].
+        Step = "step_s",
+        /// [`SimulationSettings::window_s`].
+        Window = "window_s",
     }
+    /// Its field.
+    pub fn name;
 }
 
 impl SimulationSettings {
