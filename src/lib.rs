@@ -151,7 +151,7 @@ pub mod wedge;
 pub use clutch::{Clutch, ContactLaw, Scenario, ScenarioKind};
 pub use design::{Design, DesignError, Limits};
 pub use dynamics::Stop;
-pub use follow::Follow;
+pub use follow::{Follow, News};
 pub use margin::{Margin, NoMargins, margins};
 pub use material::Material;
 pub use optimise::{NoSearch, Search, search};

@@ -92,7 +92,7 @@ pub fn example(torque_nm: f64) -> String {
 
 impl Design {
     /// Periodic states of `scenario`, one of this design's; where `question` is none, the one at its own frequency and amplitude.
-    /// `done` is told of each state. Of a map that is stopped the amplitudes that were done.
+    /// [`Settings::follow`] is told of each state. Of a map that is stopped the amplitudes that were done.
     ///
     /// # Errors
     /// [`NoResonance`].
@@ -101,7 +101,6 @@ impl Design {
         scenario: &'a Scenario,
         question: &ResonanceQuestion,
         settings: &Settings,
-        done: &(dyn Fn() + Sync),
     ) -> Result<ResonanceAnswer<'a>, NoResonance> {
         let ScenarioKind::TorsionalExcitation { amplitude_nm, frequency_hz, .. } = scenario.kind else {
             return Err(NoResonance::NoExcitation);
@@ -117,13 +116,17 @@ impl Design {
         let one = frequencies.len() * amplitudes.len() == 1;
         let settings = if one { closely(settings) } else { settings.clone() };
         let asked = amplitudes.len();
-        let run = |settings: &Settings, done: &(dyn Fn() + Sync)| {
-            let rows = resonance(scenario, &frequencies, &amplitudes, settings, done);
+        let run = |settings: &Settings| {
+            let rows = resonance(scenario, &frequencies, &amplitudes, settings);
             rows.map_err(NoResonance::NoStart)?.ok_or(NoResonance::Stopped)
         };
-        let rows = run(&settings, done)?;
-        let finer = Settings { tolerance: 0.1 * settings.tolerance, ..settings.clone() };
-        let finer = if one { Some(run(&finer, &|| ())?) } else { None };
+        let rows = run(&settings)?;
+        let finer = Settings {
+            tolerance: 0.1 * settings.tolerance,
+            follow: settings.follow.unseen(),
+            ..settings.clone()
+        };
+        let finer = if one { Some(run(&finer)?) } else { None };
         let finer = finer.and_then(|rows| Some(rows.into_iter().flatten().next()?.state));
         let friction = scenario.clutch.friction.static_;
         Ok(ResonanceAnswer {

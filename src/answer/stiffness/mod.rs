@@ -19,7 +19,7 @@ use super::left_out::{LeftOut, at_rest, left_out};
 use crate::clutch::{Clutch, ContactLaw, LawName};
 use crate::contact::ContactError;
 use crate::design::Design;
-use crate::follow::Follow;
+use crate::follow::{Follow, News};
 use crate::margin::NoMargins;
 use crate::profile::Profile;
 use crate::report::Table;
@@ -147,7 +147,7 @@ impl Design {
     pub fn stiffness(&self, settings: &StiffnessSettings) -> Result<StiffnessAnswer, NoStiffness> {
         settings.validate()?;
         let profile = self.clutch.profile().map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
-        Ok(StiffnessAnswer::of(curves(self, &profile, settings, &|| ())?, self.limits.largest_torque_nm()))
+        Ok(StiffnessAnswer::of(curves(self, &profile, settings)?, self.limits.largest_torque_nm()))
     }
 }
 
@@ -172,7 +172,7 @@ impl StiffnessAnswer {
     }
 }
 
-/// Curves of the laws asked for, side by side, and their rows; `done` is told of every law that is done.
+/// Curves of the laws asked for, side by side, and their rows; [`StiffnessSettings::follow`] is told of every law that is done.
 ///
 /// # Errors
 /// [`NoStiffness`].
@@ -180,7 +180,6 @@ fn curves(
     design: &Design,
     profile: &Profile,
     settings: &StiffnessSettings,
-    done: &(dyn Fn() + Sync),
 ) -> Result<Vec<LawCurve>, NoStiffness> {
     let none = |e| NoStiffness::NoClutch(NoMargins::Curve(e));
     let curves = settings
@@ -194,7 +193,7 @@ fn curves(
             let clutch = Clutch { contact, ..design.clutch.clone() };
             let curve = WedgeCurve::build(&clutch, profile, 0.0).map_err(none)?;
             let local = WedgeCurve::build_local(&clutch, profile).map_err(none)?;
-            done();
+            settings.follow.news(News::Done);
             Ok((name, clutch, curve, local))
         })
         .collect::<Result<Vec<_>, NoStiffness>>()?;
