@@ -14,6 +14,7 @@ use crate::report::plot::Curve;
 use crate::report::{Cell, Page, Plot, Rows, Table, Unit, plain, significant};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
+use std::fmt;
 
 /// What a user may choose; what is `None` is taken from the design.
 #[derive(Debug, Clone)]
@@ -72,17 +73,13 @@ pub struct FeedAnswer<'a> {
 }
 
 /// Why there is none.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum NoFeed {
     /// The clutch cannot begin so.
-    #[error("{0}")]
     NoStart(NoElement),
     /// The torque of the brake, N m, is not on the curve, which ends at the second one.
-    #[error("found a brake of {found}; allowed: above 0 and up to {end}, the most that the clutch carries",
-        found = Unit::NewtonMetre.show(.0[0], 4), end = Unit::NewtonMetre.show(.0[1], 4))]
     Beyond([f64; 2]),
     /// A setting makes no sense: what was found, and what is allowed.
-    #[error("found {found}; allowed: {allowed}")]
     Refused {
         /// The setting, its value and unit.
         found: String,
@@ -90,6 +87,24 @@ pub enum NoFeed {
         allowed: &'static str,
     },
 }
+
+impl fmt::Display for NoFeed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoStart(why) => why.fmt(f),
+            Self::Beyond(both) => {
+                let [found, end] = both.map(|nm| Unit::NewtonMetre.show(nm, 4));
+                write!(
+                    f,
+                    "found a brake of {found}; allowed: above 0 and up to {end}, the most that the clutch carries"
+                )
+            }
+            Self::Refused { found, allowed } => write!(f, "found {found}; allowed: {allowed}"),
+        }
+    }
+}
+
+impl std::error::Error for NoFeed {}
 
 /// A figure of strokes that came to their end.
 fn known(fed: &Fed, rad: f64) -> Option<f64> {

@@ -13,6 +13,7 @@ use crate::report::plot::Curve;
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Tone, Unit, significant};
 use crate::scenario::{MotionKind, Settings, prepare, steady_motion};
 use serde_json::{Value, json};
+use std::fmt;
 
 /// A scenario that goes on for some time, as a load.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,23 +42,16 @@ pub struct LifeAnswer<'a> {
 }
 
 /// Why there is none.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum NoLife {
     /// The design has no `[life]` table.
-    #[error("the design has no [life] table; add one with what it goes through, such as\n\n{}\n\n\
-             `sprag-design explain life` lists its keys", example(*.torque_nm))]
     NoService {
         /// Torque of the table that is suggested, N m.
         torque_nm: f64,
     },
     /// There is no clutch to speak of.
-    #[error("{0}")]
     NoClutch(NoMargins),
     /// A scenario of the service has no motion that repeats and rolls.
-    #[error(
-        "life.swings: {scenario} does not roll on and on ({why}), so its peaks are no engagements that can \
-         be counted; `sprag-design resonance` says more of it"
-    )]
     NoSwing {
         /// Its name.
         scenario: String,
@@ -65,6 +59,27 @@ pub enum NoLife {
         why: String,
     },
 }
+
+impl fmt::Display for NoLife {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoService { torque_nm } => write!(
+                f,
+                "the design has no [life] table; add one with what it goes through, such as\n\n{}\n\n\
+                 `sprag-design explain life` lists its keys",
+                example(*torque_nm)
+            ),
+            Self::NoClutch(why) => why.fmt(f),
+            Self::NoSwing { scenario, why } => write!(
+                f,
+                "life.swings: {scenario} does not roll on and on ({why}), so its peaks are no engagements that can be counted; \
+                 `sprag-design resonance` says more of it"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoLife {}
 
 /// A table to begin with.
 fn example(torque_nm: f64) -> String {

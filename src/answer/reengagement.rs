@@ -14,6 +14,7 @@ use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
 use crate::report::plot::{Curve, Dash};
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
+use std::fmt;
 
 /// What a user may choose; what is `None` is taken from the design.
 #[derive(Debug, Clone)]
@@ -96,15 +97,24 @@ pub struct ReengagementAnswer<'a> {
 }
 
 /// Why there is none.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum NoReengagement {
     /// The clutch cannot begin so.
-    #[error("{0}")]
     NoStart(NoElement),
     /// A setting makes no sense: what is allowed.
-    #[error("allowed: {0}")]
     Refused(&'static str),
 }
+
+impl fmt::Display for NoReengagement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoStart(why) => why.fmt(f),
+            Self::Refused(allowed) => write!(f, "allowed: {allowed}"),
+        }
+    }
+}
+
+impl std::error::Error for NoReengagement {}
 
 /// Peak torque that every limit bears, N m, and the limit that sets it.
 pub(super) fn peak_torque_borne(design: &Design, state: &LoadState) -> Option<(f64, String)> {

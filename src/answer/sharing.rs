@@ -11,6 +11,7 @@ use crate::report::plot::Curve;
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use crate::sharing::{Bears, Loss, NotShared, Pops, Shared, Turn};
 use serde_json::{Value, json};
+use std::fmt;
 
 /// Harmonics of the tracks that are shown beside that of the sprags themselves.
 const HARMONICS: usize = 8;
@@ -55,21 +56,33 @@ pub struct OneRow {
 }
 
 /// Why there is no answer.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum NoSharing {
     /// The design has no `[sharing]` table.
-    #[error(
-        "the design has no [sharing] table; add one with what sets its sprags apart, such \
-         as\n\n{EXAMPLE}\n\n`sprag-design explain sharing` lists its keys"
-    )]
     NoTable,
     /// No torque above 0 is asked for.
-    #[error("allowed: a torque above 0: --torque, or nominal_torque_nm in [limits]")]
     NoTorque,
     /// There is no clutch to speak of.
-    #[error("{0}")]
     NoClutch(NoMargins),
 }
+
+impl fmt::Display for NoSharing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoTable => write!(
+                f,
+                "the design has no [sharing] table; add one with what sets its sprags apart, such as\n\n{EXAMPLE}\n\n\
+                 `sprag-design explain sharing` lists its keys"
+            ),
+            Self::NoTorque => {
+                f.write_str("allowed: a torque above 0: --torque, or nominal_torque_nm in [limits]")
+            }
+            Self::NoClutch(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoSharing {}
 
 /// A table to begin with.
 pub const EXAMPLE: &str =

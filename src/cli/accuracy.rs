@@ -65,7 +65,7 @@ fn chosen<'a>(args: &AccuracyArgs, design: &'a Design) -> Result<Vec<&'a Scenari
     let mut found: Vec<&Scenario> = Vec::new();
     for name in &args.scenario {
         let scenario = design.which_scenario(Some(name), |_| true);
-        let scenario = scenario.map_err(|why| Failure::of(&args.file, why))?;
+        let scenario = scenario.map_err(|why| Failure::which(&args.file, why))?;
         if !is_torsional(scenario) {
             return Err(Failure::malformed(format!(
                 "--scenario {name}: not of the kind torsional-excitation, which alone all methods can run"

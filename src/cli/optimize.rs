@@ -54,6 +54,7 @@ const HINTS: Hints = Hints {
     more_starts: "try more --starts",
     stopped: "stopped by Ctrl-C (the same command with --resume goes on)",
     further_variables: ", which `sprag-design explain variables` lists",
+    one_step_further: " (check one step further with --set)",
     reserve: "; --reserve 0.05 would keep 5 % of every limit to spare",
 };
 

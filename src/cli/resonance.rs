@@ -107,7 +107,7 @@ impl Run for ResonanceArgs {
                         example(example_torque_nm(design))
                     ),
                 ),
-                why => Failure::of(file, why),
+                why => Failure::which(file, why),
             })?;
             // Each is found on the way up and on the way down.
             let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);

@@ -35,7 +35,7 @@ impl fmt::Display for WhichScenario {
                 write!(f, "no scenario {name}; {the} design has: {}", known.join(", "))
             }
             Self::Several { known } => {
-                write!(f, "needed: --scenario NAME; the design has: {}", known.join(", "))
+                write!(f, "several scenarios and none is named; the design has: {}", known.join(", "))
             }
         }
     }

@@ -64,7 +64,7 @@ impl Cause {
     pub fn words(&self) -> &'static str {
         match self {
             Self::FailingRegion => {
-                "the way up leads to sprags that cannot be built or closed by their flanks (check one step further with --set)"
+                "the way up leads to sprags that cannot be built or closed by their flanks"
             }
             Self::NoDerivative(_) => "near a variable's value no design can be built",
             Self::NoDescent => "no step, however short, gains what the slopes promise",
