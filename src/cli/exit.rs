@@ -2,7 +2,7 @@
 
 use crate::answer::Finding;
 use crate::design::WhichScenario;
-use crate::design::{DesignError, shown};
+use crate::file::{DesignError, shown};
 use crate::margin::NoMargins;
 use serde_json::{Value, json};
 use std::fmt::Display;

@@ -2,7 +2,8 @@
 
 use super::part::{DrawnClutch, Part};
 use crate::clutch::Clutch;
-use crate::design::{Design, DesignError};
+use crate::design::Design;
+use crate::file::DesignError;
 use crate::profile::{Outline, OutlineError, Profile, ProfileError};
 
 /// A clutch before press fits, at the reference temperature, with its profile and, where flanks are known, its outline.

@@ -1,7 +1,8 @@
 //! What the model says where something was observed.
 
 use super::observation::{Observation, ObservedQuantity};
-use crate::design::{Design, EditError, rpm, with_keys};
+use crate::design::{Design, rpm};
+use crate::file::{EditError, with_keys};
 use crate::margin::{LIFT_OFF_TO_RAD_S, LoadState, lift_off_rad_s, load_state, nominal_capacity};
 use crate::wedge::StaticPoint;
 
