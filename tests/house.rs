@@ -125,6 +125,13 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/wedge/elastic.rs", "words of an error"),
 ];
 
+/// Rooms that may name an option of the command: a library user has none.
+const HAVE_OPTIONS: &[&str] = &["answer", "studio", "cli"];
+
+/// Files elsewhere that do, each with its reason.
+const OPTIONS_ELSEWHERE: &[(&str, &str)] =
+    &[("src/export/calculix/write.rs", "a line of the deck: how its result is read back")];
+
 /// Longest file, lines: beyond it, look for the second thing in it. No reason to cut one thing in two.
 const LONGEST: usize = 600;
 
@@ -385,6 +392,25 @@ fn a_public_type_has_a_name_of_its_own() {
         assert!(files.len() == 1 || excused(name), "{name} stands in {}", files.join(", "));
         assert!(files.len() > 1 || !excused(name), "{name} needs no exception");
     }
+}
+
+#[test]
+fn the_library_names_no_option_of_the_command() {
+    let excused = |file: &str| OPTIONS_ELSEWHERE.iter().any(|(path, _)| *path == file);
+    let is_option = |line: &str, at: usize| {
+        // A colour of CSS is `var(--name)`.
+        !line[..at].ends_with("var(") && line[at + 2..].starts_with(|c: char| c.is_ascii_lowercase())
+    };
+    let mut found = Vec::new();
+    for (file, text) in shipped() {
+        let names = |l: &str| l.contains("Ctrl-C") || l.match_indices("--").any(|(at, _)| is_option(l, at));
+        let named = text.lines().any(names);
+        if named && room(&file).is_some_and(|room| !HAVE_OPTIONS.contains(&room)) {
+            found.push(file);
+        }
+    }
+    assert!(found.iter().all(|file| excused(file)), "{found:?}");
+    assert_eq!(found.len(), OPTIONS_ELSEWHERE.len(), "an exception names no file");
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use super::head::{Holds, SweepHead};
 use super::lines::{FIXED, ROWS};
 use super::table::{NoTable, Records};
-use crate::design::nearest;
+use crate::design::did_you_mean;
 use crate::margin::RESOLUTION;
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -203,13 +203,8 @@ impl SweepMap {
         let variables: Vec<usize> =
             (0..names.len()).filter(|&i| !FIXED.contains(&names[i].as_str()) && !rows(&names[i])).collect();
         let Some(by) = place(&self.by) else {
-            let known: Vec<&str> = names.iter().map(String::as_str).collect();
-            let meant = nearest(&self.by, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
-            return Err(NoTable::whole(format!(
-                "no column {}; there are: {}{meant}",
-                self.by,
-                known.join(", ")
-            )));
+            let (by, near) = (&self.by, did_you_mean(&self.by, names));
+            return Err(NoTable::whole(format!("no column {by}; there are: {}{near}", names.join(", "))));
         };
         if variables.is_empty() {
             return Err(NoTable::whole(
@@ -252,8 +247,8 @@ impl SweepMap {
         let place = |name: &String| {
             let known: Vec<&str> = self.variables.iter().map(|v| v.name.as_str()).collect();
             known.iter().position(|n| n == name).ok_or_else(|| {
-                let meant = nearest(name, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
-                NoTable::whole(format!("no variable {name}; there are: {}{meant}", known.join(", ")))
+                let near = did_you_mean(name, &known);
+                NoTable::whole(format!("no variable {name}; there are: {}{near}", known.join(", ")))
             })
         };
         let varying: Vec<usize> = (0..self.variables.len()).filter(|&i| self.variables[i].varies()).collect();

@@ -3,7 +3,7 @@
 use super::head::{Holds, SweepHead};
 use super::lines::{FIXED, begin_vectors, vector_line};
 use super::table::{NoTable, Records};
-use crate::design::{Design, OptimizeVariable, nearest};
+use crate::design::{Design, OptimizeVariable, did_you_mean};
 use crate::sweep::{BoxSample, Sampling};
 use sha2::{Digest, Sha256};
 use std::io::Read;
@@ -67,8 +67,7 @@ impl<R: Read> Vectors<R> {
                 Some(i) => &mut columns[i],
                 None if name == FIXED[0] => &mut index,
                 None => {
-                    let meant =
-                        nearest(name, &names).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
+                    let meant = did_you_mean(name, &names);
                     return Err(whole(format!(
                         "column {name} is no variable of [optimize]{meant} Columns: {}, and index if wanted",
                         names.join(", ")
