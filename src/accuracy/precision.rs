@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::clutch::Scenario;
 use crate::dynamics::{PublishedSettings, Run, RunSettings, Stop, published, run};
 use crate::fidelity::{self, Plan};
-use crate::follow::Follow;
+use crate::follow::{Follow, News};
 use crate::scenario::{
     NoScenario, Prepared, Settings, Simulation, Terms, demand, prepare, simulate_prepared,
 };
@@ -133,15 +133,11 @@ const STEPS: f64 = 4.0;
 /// Enough for any scene of a design; a run that needs more is left out.
 const MOST: u64 = 5_000_000;
 
-/// Compare the methods on `scenario`; `None` where interrupted. `done` is called after each setting.
+/// Compare the methods on `scenario`; `None` where interrupted. [`PrecisionSettings::follow`] is told of each setting.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start.
-pub fn precision(
-    scenario: &Scenario,
-    settings: &PrecisionSettings,
-    done: &dyn Fn(),
-) -> Result<Option<Precision>, NoScenario> {
+pub fn precision(scenario: &Scenario, settings: &PrecisionSettings) -> Result<Option<Precision>, NoScenario> {
     let full = prepare(scenario)?;
     let (plan, reduced) = fidelity::plan(scenario, None)?;
     let (_, whole_s) = timed(settings, || drop(prepare(scenario)));
@@ -160,7 +156,7 @@ pub fn precision(
                 return Ok(None);
             }
             points.push(bench.point(method, setting, reference));
-            done();
+            settings.follow.news(News::Done);
         }
         methods.push((method, points));
     }

@@ -35,7 +35,6 @@ use crate::report::{Page, Screen, Table};
 use crate::scenario::{Beyond, NoScenario, Prepared, Simulation, Verdict, beyond};
 use serde::{Serialize, Serializer};
 use serde_json::json;
-use std::fmt;
 
 /// A scene that has run, before it is looked at once more for what contact damping changes.
 #[derive(Debug, Clone)]
@@ -145,9 +144,10 @@ impl Answer for SimulationAnswer {
 }
 
 /// Why a scene was not simulated. What can happen to a clutch is an answer, also that it has no such start.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoAnswer {
     /// The design has no scenario of this name; those that it has.
+    #[error("no scenario {name}; the design has: {}", .known.join(", "))]
     NoSuchScenario {
         /// Name asked for.
         name: String,
@@ -155,21 +155,9 @@ pub enum NoAnswer {
         known: Vec<String>,
     },
     /// A setting makes no sense.
+    #[error("{0}")]
     Refused(RefusedSetting),
 }
-
-impl fmt::Display for NoAnswer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoSuchScenario { name, known } => {
-                write!(f, "no scenario {name}; the design has: {}", known.join(", "))
-            }
-            Self::Refused(refused) => refused.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for NoAnswer {}
 
 /// Simulate the scenario `name` of `design`.
 ///
