@@ -150,6 +150,11 @@ pub trait Answer {
 
 /// What an answer about one design says; the faces of [`Answer`] follow from it.
 pub trait Said {
+    /// Its own keys in JSON.
+    type Body<'a>: Serialize
+    where
+        Self: 'a;
+
     /// Title of its page.
     fn title(&self) -> &str;
     /// The design.
@@ -163,7 +168,7 @@ pub trait Said {
     /// The table for programs.
     fn table(&self) -> Table;
     /// Its own keys in JSON.
-    fn body(&self) -> Value;
+    fn body(&self) -> Self::Body<'_>;
     /// What stands on a page between the remarks and the inputs.
     fn draw(&self, page: &mut Page);
 
@@ -205,7 +210,7 @@ pub trait Said {
 
 impl<T: Said> Answer for T {
     type Body<'a>
-        = Value
+        = T::Body<'a>
     where
         T: 'a;
 
@@ -242,7 +247,7 @@ impl<T: Said> Answer for T {
         page
     }
 
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, T::Body<'_>> {
         Envelope {
             design: self.design(),
             run_time_s,

@@ -30,7 +30,6 @@ pub mod resonance;
 pub mod roll_over;
 pub mod search;
 pub mod sharing;
-mod sharing_beyond;
 pub mod sharing_scene;
 pub mod simulation;
 pub mod sizing;

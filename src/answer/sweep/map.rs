@@ -84,7 +84,7 @@ impl MapVariable {
 }
 
 /// A point that is remembered.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct MapPoint {
     /// Its number.
     pub index: u64,
