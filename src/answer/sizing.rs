@@ -222,8 +222,8 @@ fn shown_broken(margins: &[Margin]) -> Vec<String> {
         let opens = rows.iter().any(|r| r.is_contact() || r.demand == Demand::NoneSuffices);
         let means = match (scene, opens) {
             (Some(scene), true) => format!(
-                "in scene {scene} the sprags lose contact for a while, which no friction prevents, and strike again; `simulate` with --scenario \
-                 {scene} shows how hard"
+                "in scene {scene} the sprags lose contact for a while, which no friction prevents, and strike again; \
+                 `simulate` with --scenario {scene} shows how hard"
             ),
             (Some(scene), false) => format!("`simulate` with --scenario {scene} shows by how much"),
             (None, _) => "`check` shows by how much".to_owned(),

@@ -149,9 +149,9 @@ pub fn load_margins(
     rows
 }
 
-/// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where A slides and nothing is to
-/// stick (limits `keep-contact` and `lift-off` hold that). Scenarios know nothing of one another, so a caller may
-/// take them in parallel; `known`: a curve that need not be built again.
+/// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where
+/// A slides and nothing is to stick (limits `keep-contact` and `lift-off` hold that). Scenarios know nothing of one
+/// another, so a caller may take them in parallel; `known`: a curve that need not be built again.
 pub fn scene_margins(
     scenario: &Scenario,
     limits: &Limits,

@@ -298,8 +298,9 @@ impl CheckBody {
     pub fn other_remarks(&self) -> Vec<String> {
         let early = (self.end.torque_nm < self.asked_nm).then(|| {
             format!(
-                "The curve ends ({}) at {}, below the {} asked: limits beyond are not reached, which counts as not held, whatever they would \
-                 allow; a number there is a margin that is broken before (in JSON and CSV at most what the torque lacks, end/torque − 1)",
+                "The curve ends ({}) at {}, below the {} asked: limits beyond are not reached, which counts as not held, \
+                 whatever they would allow; a number there is a margin that is broken before (in JSON and CSV at most \
+                 what the torque lacks, end/torque − 1)",
                 self.end.reason,
                 Unit::NewtonMetre.show(self.end.torque_nm, 4),
                 Unit::NewtonMetre.show_plain(self.asked_nm, 4)
@@ -401,8 +402,8 @@ pub fn unit_cell(r: &Margin) -> Cell {
     }
 }
 
-/// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies beyond the end of the curve, its
-/// torque does and nothing breaks it before, or a run met its limit of work.
+/// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies
+/// beyond the end of the curve, its torque does and nothing breaks it before, or a run met its limit of work.
 pub fn in_place_of_margin(r: &Margin) -> Option<&'static str> {
     match r.demand {
         Demand::NoneSuffices => Some(NONE),

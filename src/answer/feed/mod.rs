@@ -309,6 +309,10 @@ impl Said for FeedAnswer<'_> {
             plot.curves.push(Curve::new("slow strokes: windup", points(&|_| -self.windup_rad)));
             page.figure(&plot.to_figure(), "What a stroke feeds more or less than the driving race turns.");
         }
-        page.table("Each frequency. Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (both negative: less).", &self.table());
+        page.table(
+            "Each frequency. Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow \
+             strokes feed (both negative: less).",
+            &self.table(),
+        );
     }
 }

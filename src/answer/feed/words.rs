@@ -32,8 +32,8 @@ impl FeedAnswer<'_> {
         };
         Some(match self.word(fed) {
             "NOT HELD" if ratio > 1.0 => format!(
-                "Next: that the fed race does not run on at {hz}, a brake of {} or more (--brake, now {}), or {} kg m² or less (--inertia, \
-                 now {}); or strokes {fewer}",
+                "Next: that the fed race does not run on at {hz}, a brake of {} or more (--brake, now {}), or {} kg m² or \
+                 less (--inertia, now {}); or strokes {fewer}",
                 Unit::NewtonMetre.show(case.brake_nm * ratio, 3),
                 significant(case.brake_nm, 3),
                 significant(case.inertia_kg_m2 / ratio, 3),
@@ -51,8 +51,8 @@ impl FeedAnswer<'_> {
                     format!(" than the {} that {code} allows", Unit::NewtonMetre.show(*nm, 4))
                 });
                 format!(
-                    "Next: strokes {fewer}, less to be moved (--inertia, now {} kg m²; --brake, now {}), or a clutch for more{bears} (`size \
-                     --peak`)",
+                    "Next: strokes {fewer}, less to be moved (--inertia, now {} kg m²; --brake, now {}), or a clutch for \
+                     more{bears} (`size --peak`)",
                     significant(case.inertia_kg_m2, 3),
                     Unit::NewtonMetre.show(case.brake_nm, 4)
                 )
@@ -159,13 +159,14 @@ impl FeedAnswer<'_> {
                 Unit::NewtonMetre.show(case.brake_nm, 4),
             ),
             format!(
-                "Slow strokes feed the stroke less the windup at that torque, {}; where the inertia asks for more than the brake, the fed race \
-                 runs on, from {} on",
+                "Slow strokes feed the stroke less the windup at that torque, {}; where the inertia asks for more than \
+                 the brake, the fed race runs on, from {} on",
                 Unit::Degree.show(self.windup_rad, 4),
                 Unit::Hertz.show(self.case.runs_on_from_hz(), 3)
             ),
-            "Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (negative: less); runs on: turn of the fed race after the driving one has turned back; unlike: last stroke against the one before; torque: largest, by \
-             the normal force; open: time of a stroke without contact at the inner race"
+            "Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (negative: \
+             less); runs on: turn of the fed race after the driving one has turned back; unlike: last stroke against the \
+             one before; torque: largest, by the normal force; open: time of a stroke without contact at the inner race"
                 .to_owned(),
         ]
     }

@@ -187,8 +187,8 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
     out.extend(k.undetermined().filter_map(|(j, doubt)| doubt_sentence(found, j, doubt)));
     if k.estimates.iter().any(|e| e.by_law.is_some()) {
         out.push(
-            "± at 95 %; scatter: of these data, were the model exact; law: what the contact law's own error beside finite elements, smooth over \
-             torque, moves the value by"
+            "± at 95 %; scatter: of these data, were the model exact; law: what the contact law's own error beside finite \
+             elements, smooth over torque, moves the value by"
                 .to_owned(),
         );
     }

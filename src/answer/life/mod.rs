@@ -277,13 +277,14 @@ impl Said for LifeAnswer<'_> {
             ),
             LeftOut::new(
                 "dynamics",
-                "torques of loads and histories are taken as they are given, each engagement as slow; swings have the torques that the clutch carries",
+                "torques of loads and histories are taken as they are given, each engagement as slow; swings have the \
+                 torques that the clutch carries",
                 "what `simulate` finds beyond the torque given: put its peak here",
             ),
             LeftOut::new(
                 "wear, lubricant, residual stress",
-                "wear: with `overruns` and oil, by Archard, with the film of the drawn contact; it does not change pitting and fatigue; the others: no \
-                 model",
+                "wear: with `overruns` and oil, by Archard, with the film of the drawn contact; it does not change \
+                 pitting and fatigue; the others: no model",
                 "unknown; pitting strengths hold for the lubricant and surface that they were found with",
             ),
         ];
@@ -321,8 +322,8 @@ impl Said for LifeAnswer<'_> {
         );
         if let Some(wear) = self.wear() {
             page.heading("Wear").table(
-                "Sprags and tracks as they wear, until a limit is broken: depth of the flat, gap, friction that first contact and the largest load ask \
-                 for, lowest torque capacity.",
+                "Sprags and tracks as they wear, until a limit is broken: depth of the flat, gap, friction that first \
+                 contact and the largest load ask for, lowest torque capacity.",
                 &wear.table(),
             );
         }

@@ -149,8 +149,8 @@ impl LifeAnswer<'_> {
         all.extend(self.wear_remark());
         for s in &self.swung {
             all.push(format!(
-                "{}: {} h at {} are {} engagements at {}, its peak as the clutch carries it (peaks above half of the largest: Tsubakimoto); the rings \
-                 swing up from {}",
+                "{}: {} h at {} are {} engagements at {}, its peak as the clutch carries it (peaks above half of the \
+                 largest: Tsubakimoto); the rings swing up from {}",
                 s.scenario,
                 significant(s.duration_s / 3600.0, 4),
                 Unit::Hertz.show(s.frequency_hz, 4),
@@ -162,22 +162,24 @@ impl LifeAnswer<'_> {
         if let Some((peak_nm, indents)) = life.peak_beyond {
             let word = if indents { ", which would indent a contact" } else { "" };
             all.push(format!(
-                "Not counted: peak torque, {} by [limits]{word}: {{ torque_nm = {peak_nm:?}, engagements = ... }} among the loads of [life] counts it",
+                "Not counted: peak torque, {} by [limits]{word}: {{ torque_nm = {peak_nm:?}, engagements = ... }} among \
+                 the loads of [life] counts it",
                 Unit::NewtonMetre.show(peak_nm, 4)
             ));
         }
         let not_counted: Vec<&str> = self.not_counted().collect();
         if let Some(first) = not_counted.first() {
             all.push(format!(
-                "Not counted: {}, which would be an engagement in each period: swings = [{{ scenario = \"{first}\", hours = ... }}] in [life] counts \
-                 it, or a history",
+                "Not counted: {}, which would be an engagement in each period: swings = [{{ scenario = \"{first}\", hours \
+                 = ... }}] in [life] counts it, or a history",
                 not_counted.join(", ")
             ));
         }
         for history in &self.service.histories {
             all.push(format!(
-                "{}: peaks above half of the largest (Tsubakimoto) and what rises from below half of its own peak are an engagement each, rings by \
-                 rainflow (ASTM E1049), in hundredths of the largest torque, rounded up; it begins and ends at rest",
+                "{}: peaks above half of the largest (Tsubakimoto) and what rises from below half of its own peak are an \
+                 engagement each, rings by rainflow (ASTM E1049), in hundredths of the largest torque, rounded up; it \
+                 begins and ends at rest",
                 history.name
             ));
         }

@@ -34,8 +34,8 @@ pub(super) fn draw(answer: &ReengagementAnswer<'_>, page: &mut Page) {
         if let Some(energy) = few {
             page.figure(
                 &energy.to_figure(),
-                "Energy of the races against one another after each path of slip, and what the windup takes up: to its limits and to the end of \
-                 the curve. Beyond that the blow has no torque to draw.",
+                "Energy of the races against one another after each path of slip, and what the windup takes up: to its \
+                 limits and to the end of the curve. Beyond that the blow has no torque to draw.",
             );
         } else {
             match is_empty {

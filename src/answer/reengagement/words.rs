@@ -65,10 +65,14 @@ impl ReengagementAnswer<'_> {
                     None => String::new(),
                 }
             ),
-            "Slip, lasts: path at the inner track and time until the design's friction is back; times: blow over the torque carried; by energy: \
-             nothing lost; energy: of the races against one another, of borne: that over what the limits let the windup take up; speed gained: largest speed of the races against one another; in all: path until these stand still against one another"
+            "Slip, lasts: path at the inner track and time until the design's friction is back; times: blow over the \
+             torque carried; by energy: nothing lost; energy: of the races against one another, of borne: that over what \
+             the limits let the windup take up; speed gained: largest speed of the races against one another; in all: \
+             path until these stand still against one another"
                 .to_owned(),
-            "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
+            "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however \
+             short the slip"
+                .to_owned(),
         ]);
         if let Some([most_j, end_j]) = self.takes_up_j {
             let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
@@ -90,8 +94,9 @@ impl ReengagementAnswer<'_> {
         }
         if let Some(end) = self.thrown() {
             all.push(format!(
-                "From {} of slip on the slip itself throws the sprags out of reach: rows beyond are of races with nothing between them; by energy: what \
-                 the speed would come to if the sprags gripped there. Rows above that end so are thrown out once the friction is back",
+                "From {} of slip on the slip itself throws the sprags out of reach: rows beyond are of races with nothing \
+                 between them; by energy: what the speed would come to if the sprags gripped there. Rows above that end \
+                 so are thrown out once the friction is back",
                 Unit::Millimetre.show(end.path_m, 3)
             ));
             if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
@@ -111,8 +116,8 @@ impl ReengagementAnswer<'_> {
         match end.stop {
             Stop::FellAway => {
                 let mut said = format!(
-                    "NOT HELD: {when} the sprags are thrown farther than their spring reaches, and nothing brings them back: from then on the \
-                     torque drives the races apart unhindered"
+                    "NOT HELD: {when} the sprags are thrown farther than their spring reaches, and nothing brings them \
+                     back: from then on the torque drives the races apart unhindered"
                 );
                 let last = self.found.list.last().filter(|b| b.peak.is_none());
                 if let Some(b) = last {
@@ -154,8 +159,8 @@ impl ReengagementAnswer<'_> {
         let nobody = !self.outer_given && !self.case.outer_held;
         (nobody && inertia_from(self.design, "outer") == InertiaFrom::Ring).then(|| {
             format!(
-                "The outer race turns as a bare ring, {} kg m²: the file names nothing that turns with it (races.outer_inertia_kg_m2), and this \
-                 decides the answer; --outer-inertia says what does, --outer-held that it is held",
+                "The outer race turns as a bare ring, {} kg m²: the file names nothing that turns with it \
+                 (races.outer_inertia_kg_m2), and this decides the answer; --outer-inertia says what does, --outer-held that it is held",
                 significant(self.case.inertia_kg_m2[1], 4)
             )
         })
@@ -171,7 +176,8 @@ impl ReengagementAnswer<'_> {
         let energy = lost.and_then(|b| Some((b, self.energy(b)?.1.filter(|share| *share > 1.0)?)));
         let blow = energy.map_or(String::new(), |(b, share)| {
             format!(
-                "; to bear {} of slip its windup must take up {} times as much: less torque (--torque), or a clutch for more (`size --peak`)",
+                "; to bear {} of slip its windup must take up {} times as much: less torque (--torque), or a clutch for \
+                 more (`size --peak`)",
                 Unit::Millimetre.show(b.path_m, 3),
                 significant(share, 3)
             )

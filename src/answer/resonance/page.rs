@@ -16,8 +16,8 @@ pub(super) fn draw(answer: &ResonanceAnswer<'_>, page: &mut Page) {
         page.heading("Map");
         page.paragraph(
             "First map: static friction that rolling needs, the deeper green the larger the slip margin, red where there is less; \
-             grey: rolling would open the contact; crossed: no rolling motion that repeats was found. Second map: what the clutch does with the friction that it has. The line is the \
-             border of what rolls.",
+             grey: rolling would open the contact; crossed: no rolling motion that repeats was found. Second map: what \
+             the clutch does with the friction that it has. The line is the border of what rolls.",
         );
         page.figures(&[(answer.needed().to_figure(), ""), (answer.kinds().to_figure(), "")]);
     }

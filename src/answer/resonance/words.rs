@@ -68,8 +68,8 @@ impl ResonanceAnswer<'_> {
         });
         let ends = self.count(MotionKind::Overloaded) + self.count(MotionKind::Disengages) > 0;
         let ends = ends.then(|| {
-            "overloaded, disengages: no motion repeats there, the swing carries the sprag beyond the end of the curve, off its profile or over \
-             its highest point, or farther from the race than is followed"
+            "overloaded, disengages: no motion repeats there, the swing carries the sprag beyond the end of the curve, \
+             off its profile or over its highest point, or farther from the race than is followed"
                 .to_owned()
         });
         let neutral = self.cells().filter_map(|c| {

@@ -220,7 +220,11 @@ impl Said for SharingAnswer<'_> {
             all.push(format!("Sprags that never carry: {}", idle.join(", ")));
         }
         if self.allowed.is_none() {
-            all.push("No Hertz pressure is limited: hertz_nominal_mpa or hertz_peak_mpa in [limits] would say how many sprags may fail".to_owned());
+            all.push(
+                "No Hertz pressure is limited: hertz_nominal_mpa or hertz_peak_mpa in [limits] would say how many \
+                 sprags may fail"
+                    .to_owned(),
+            );
         }
         all
     }

@@ -91,10 +91,12 @@ impl SharingAnswer<'_> {
                 "what holds the races",
                 match [clutch.races.inner_rim, clutch.races.outer_rim].contains(&Rim::Held) {
                     false => {
-                        "rings are free but for the shift of their axes: no housing, hub or flange stiffens them, and their first harmonic is the shift"
+                        "rings are free but for the shift of their axes: no housing, hub or flange stiffens them, and \
+                         their first harmonic is the shift"
                     }
                     true => {
-                        "a rim that the design holds does not yield at all, a free one is stiffened by nothing, and the first harmonic of every ring is the shift of its axis"
+                        "a rim that the design holds does not yield at all, a free one is stiffened by nothing, and the \
+                         first harmonic of every ring is the shift of its axis"
                     }
                 },
                 "not estimated; a housing round a thin race keeps it round: give its wall to the race",

@@ -120,8 +120,9 @@ impl SharingSceneAnswer<'_> {
         LeftOut::new(
             "inertia of the races that bend",
             &format!(
-                "they bend as at rest: alone the inner race swings at {inner}, the outer at {outer}, the scene drives them at {}; what they \
-                 recede is off by the square of that over the lowest, and so where sprags shock them within one such swing",
+                "they bend as at rest: alone the inner race swings at {inner}, the outer at {outer}, the scene drives \
+                 them at {}; what they recede is off by the square of that over the lowest, and so where sprags shock \
+                 them within one such swing",
                 Unit::Hertz.show(bends.scene_hz, 3)
             ),
             &format!("{} of what they bend", Unit::Percent.show(bends.left_out(), 2)),
@@ -186,8 +187,8 @@ impl SharingSceneAnswer<'_> {
         let left = self.bending_left_out();
         match (&self.found.bends, self.found.shares_at_rest) {
             (Some(bends), [Some(bent), Some(round), _]) => format!(
-                "The races bend: at rest under {} the largest share is {} with it, {} without; the lowest mode of a ring is {}, the scene's {}, \
-                 which leaves out {}",
+                "The races bend: at rest under {} the largest share is {} with it, {} without; the lowest mode of a ring \
+                 is {}, the scene's {}, which leaves out {}",
                 Unit::NewtonMetre.show(self.found.largest_nm, 4),
                 significant(bent, 4),
                 significant(round, 4),
