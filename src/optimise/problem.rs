@@ -354,7 +354,7 @@ impl ClutchProblem {
                 rows.extend((way.scene)(k, scenario, state.at_rest(design)));
                 // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
                 if let Some(row) = rows.iter().find(|r| !r.computed()) {
-                    return Err(NoEvaluation::Refused(row.name.clone()));
+                    return Err(NoEvaluation::Refused(row.full_name()));
                 }
             }
             Ok(())

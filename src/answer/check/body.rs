@@ -3,7 +3,7 @@
 use super::overrun::OverrunSection;
 use super::{run_out, running};
 use crate::answer::stiffness::CurveEnd;
-use crate::margin::{Demand, Margin, Rule, When, lowest_capacity};
+use crate::margin::{Demand, Left, Margin, Rule, When, lowest_capacity};
 use crate::report::{Cell, Rows, Table, Unit, greek, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
@@ -90,7 +90,7 @@ impl Capacity {
         let counts = |r: &Margin| counts(r) && !ends_first(r, end_torque_nm);
         lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Self {
             code: r.code(),
-            name: r.plain_name().to_owned(),
+            name: r.name.clone(),
             torque_capacity_nm,
         })
     }
@@ -180,7 +180,7 @@ impl CheckBody {
             pass: required().all(Margin::held),
             deciding: required().min_by(nearest_first).map(|r| Deciding {
                 code: r.code(),
-                name: r.name.clone(),
+                name: r.full_name(),
                 margin: r.margin(),
                 words: margin_words(r),
             }),
@@ -323,7 +323,7 @@ impl CheckRow {
     pub fn of(r: &Margin, end_torque_nm: f64) -> Self {
         Self {
             code: r.code(),
-            name: r.name.clone(),
+            name: r.full_name(),
             demand: r.demand_in_unit().filter(|_| !r.overloaded()),
             allowable: r.shown_allowable(),
             unit: r.limit.unit,
@@ -379,7 +379,7 @@ pub fn demand_cell(r: &Margin) -> Cell {
         Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
         Demand::Overloaded { at_end: None, .. } => OVERLOADED.into(),
         Demand::NoneSuffices => NONE_SUFFICES.into(),
-        Demand::NotComputed(_) => NOT_COMPUTED.into(),
+        Demand::NotComputed(_) | Demand::Unknown => NOT_COMPUTED.into(),
     }
 }
 
@@ -407,7 +407,7 @@ pub fn unit_cell(r: &Margin) -> Cell {
 pub fn in_place_of_margin(r: &Margin) -> Option<&'static str> {
     match r.demand {
         Demand::NoneSuffices => Some(NONE),
-        Demand::Overloaded { .. } if r.margin() <= -1.0 => Some(OVERLOADED),
+        Demand::Overloaded { .. } if r.left() == Left::Lost => Some(OVERLOADED),
         _ if r.is_not_reached() => Some(NOT_REACHED),
         Demand::NotComputed(_) => Some(NOT_COMPUTED),
         _ => None,

@@ -108,8 +108,8 @@ fn names(rows: &[Margin]) -> Table {
             Some(_) => format!("{}:SCENE", r.limit.code),
             None => r.code(),
         };
-        let name =
-            r.scene.as_ref().map_or(r.name.clone(), |scene| r.name.replace(scene.as_str(), "the scene"));
+        let name = r.full_name();
+        let name = r.scene.as_ref().map_or(name.clone(), |scene| name.replace(scene.as_str(), "the scene"));
         if seen.contains(&code) {
             continue;
         }

@@ -4,7 +4,9 @@ use super::{ClutchProblem, Way};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::{Design, Link};
 use crate::fidelity;
-use crate::margin::{LoadState, Margin, SceneDemand, ends_decide, scene_margins, scene_rows};
+use crate::margin::{
+    LoadState, Margin, SceneDemand, ends_decide, scene_margins, scene_rows, unknown_scene_rows,
+};
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::scenario::{AtRest, RollingTrack, demand_retraced};
 use rayon::prelude::*;
@@ -66,17 +68,17 @@ impl ClutchProblem {
     fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&RollingTrack>) -> Vec<Margin> {
         let moves = !matches!(scenario.kind, ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. });
         if moves && track.is_none() {
-            let unknown = SceneDemand::unknown(scenario);
-            return scene_rows(scenario, &unknown, &self.limits, true);
+            return unknown_scene_rows(scenario, &self.limits);
         }
         let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
             return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
         };
-        let demand = match demand_retraced(&prepared, track) {
-            Some(found) => SceneDemand::of(scenario, &prepared, found),
-            None => SceneDemand::unknown(scenario),
-        };
-        scene_rows(scenario, &demand, &self.limits, true)
+        match demand_retraced(&prepared, track) {
+            Some(found) => {
+                scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true)
+            }
+            None => unknown_scene_rows(scenario, &self.limits),
+        }
     }
 
     /// The evaluation at `x`, and what its scenes integrated.
