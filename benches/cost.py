@@ -48,7 +48,7 @@ def measured(points, nothing):
     curves = of(r"WedgeCurve>::march$")
     at_rest = of(r"margin::curve_at_rest$", r"margin::load::load_state_at$", r"margin::load::load_state$")
     phases = {
-        "the file: values put in, read": of(r"design::form::DesignForm::at$", r"design::edit::with_values$") + of(r"design::Design>::parse_in$"),
+        "the file: values put in, read": of(r"file::form::DesignForm::at$", r"file::edit::with_values$") + of(r"design::Design>::parse_in$"),
         "curves": curves,
         "rows of the load state": of(r"smooth::load_rows$", r"margin::load_margins$", r"margin::load::rows$"),
         "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - (curves - at_rest), 0.0),

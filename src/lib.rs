@@ -19,7 +19,8 @@
 //! | 1 | [`race`] | growth and hoop stress of rings, press fits, body compression |
 //! | 1 | [`lubrication`] | oils, film of a line contact, its shear, heat and wear; never heard of a clutch |
 //! | 1 | [`clutch`] | the nouns, SI: a clutch and its parts, radii as run, what happens to it |
-//! | 1 | [`design`] | the design file, read, checked, changed; the only way in for mm, degrees, GPa |
+//! | 1 | [`design`] | a checked design: clutch, limits, scenarios, the optimiser's task |
+//! | 1 | [`file`] | the design file, read, checked, changed; the only way in for mm, degrees, GPa |
 //! | 2 | [`kinematics`] | lengths, angles, levers, rolling ratios |
 //! | 2 | [`contact`] | local line contact: roller law, Hertz, slices |
 //! | 2 | [`friction`] | coefficient over speed, dry and on a film |
@@ -118,6 +119,7 @@ pub mod element;
 pub mod export;
 pub mod feed;
 pub mod fidelity;
+pub mod file;
 pub mod follow;
 pub mod friction;
 pub mod identify;
@@ -146,8 +148,9 @@ pub mod sweep;
 pub mod wedge;
 
 pub use clutch::{Clutch, ContactLaw, Scenario, ScenarioKind};
-pub use design::{Design, DesignError, Limits};
+pub use design::{Design, Limits};
 pub use dynamics::Stop;
+pub use file::DesignError;
 pub use follow::Follow;
 pub use margin::{Margin, NoMargins, margins};
 pub use material::Material;

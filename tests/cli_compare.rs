@@ -176,7 +176,7 @@ fn every_input_stands_on_the_sheet_and_what_made_it() {
         assert!(text.contains(verdict) && text.contains(&format!("sheet {file} --report")), "{file}");
         assert!(text.contains(&sprag_design::Design::read(file.as_ref()).unwrap().hash));
         let source = std::fs::read_to_string(file).unwrap();
-        let inputs = sprag_design::design::inputs(&source);
+        let inputs = sprag_design::file::inputs(&source);
         assert!(inputs.len() > 30);
         let section = &text[text.rfind("Inputs").unwrap()..];
         for input in inputs {

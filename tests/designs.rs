@@ -4,9 +4,8 @@ use sha2::{Digest, Sha256};
 use std::path::Path;
 
 use sprag_design::clutch::{ContactLaw, MassSource, Scenario, ScenarioKind};
-use sprag_design::design::{
-    Design, EditError, schema, variable_names, variable_path, with_limits, with_values,
-};
+use sprag_design::design::Design;
+use sprag_design::file::{EditError, schema, variable_names, variable_path, with_limits, with_values};
 use sprag_design::margin::{load_state, margins};
 use sprag_design::profile::Flanks;
 use sprag_design::profile::Outline;

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use sprag_design::answer::simulation::SimulationSettings;
 use sprag_design::clutch::{Scenario, ScenarioKind};
-use sprag_design::design::{Design, DesignError};
+use sprag_design::design::Design;
+use sprag_design::file::DesignError;
 use sprag_design::optimise::{ClutchProblem, Fidelity};
 use sprag_design::{Follow, Settings, WedgeCurve};
 

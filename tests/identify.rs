@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use sprag_design::design::{Design, with_values};
+use sprag_design::design::Design;
+use sprag_design::file::with_values;
 use sprag_design::identify::{FitSettings, Identified, NoFit, Tied, Unknown, Use, identify, observations};
 use sprag_design::{Follow, WedgeCurve};
 

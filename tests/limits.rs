@@ -1,7 +1,8 @@
 //! Every limit, by its row: accepted from a file, merged from [optimize] limits, demanded, written back, worded. What a new
 //! row forgets fails here.
 
-use sprag_design::design::{LIMIT_KEYS, LimitKey, with_limits};
+use sprag_design::design::{LIMIT_KEYS, LimitKey};
+use sprag_design::file::with_limits;
 use sprag_design::margin::{
     Capacities, LIMITS, Margin, RunOut, When, limit_of, load_state, margins, run_out_margins, unlike_margins,
 };

@@ -3,7 +3,7 @@
 //! Remake it with `REMAKE=1 cargo test -r the_picture` (no long flags: an XML comment holds no double hyphen).
 
 use sprag_design::answer::page::{drawing, pose_at_rest, pose_at_torque};
-use sprag_design::design::{allowed, schema};
+use sprag_design::file::{allowed, schema};
 use sprag_design::{Design, WedgeCurve};
 use std::path::Path;
 

@@ -2,7 +2,8 @@
 
 use std::error::Error;
 
-use sprag_design::design::{Design, with_keys};
+use sprag_design::design::Design;
+use sprag_design::file::with_keys;
 use sprag_design::margin::{Capacities, LoadState, load_margins, load_state};
 use sprag_design::profile::{Outline, Profile, clearance_m};
 use sprag_design::wedge::StaticPoint;

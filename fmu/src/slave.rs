@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sprag_design::clutch::Start;
-use sprag_design::design::is_whole;
+use sprag_design::file::is_whole;
 use sprag_design::element::{Beginning, Element, Motion, Saved, Settings, Torque};
 use sprag_design::export::fmu::{
     ElementQuantity, FIRST_KEY, QUANTITIES, Role, ScalarVariable, VariableSubject, VariableType, token,

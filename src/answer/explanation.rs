@@ -1,9 +1,9 @@
 //! What a limit, a key, a variable or another name means.
 
 use crate::clutch::LAWS;
-use crate::design::{
-    LIMIT_KEYS, Objective, SCENARIO_KINDS, VARIABLES, allowed, keys_of, nearest, paths_of, shape_of,
-    unit_of_key, variable_path,
+use crate::design::{LIMIT_KEYS, Objective, nearest};
+use crate::file::{
+    SCENARIO_KINDS, VARIABLES, allowed, keys_of, paths_of, shape_of, unit_of_key, variable_path,
 };
 use crate::margin::{LIMITS, limit_of};
 use crate::size::PURPOSES;

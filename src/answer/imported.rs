@@ -2,7 +2,8 @@
 
 use super::left_out::LeftOut;
 use super::{Envelope, VERSION, WRITTEN_BY};
-use crate::design::{Design, EditError, shown, with_keys, with_spiral, with_sprag};
+use crate::design::Design;
+use crate::file::{EditError, shown, with_keys, with_spiral, with_sprag};
 use crate::import::{Arc, Arcs, Drawn, FittedSpiral, FittedSprag, STANDARD_ERROR, SpiralKind};
 use crate::numeric::rounded;
 use crate::report::{Rows, Screen, Table, Unit};

@@ -1,6 +1,7 @@
 //! Where the inertia that turns with a race comes from: what rests on a guess says so.
 
-use crate::design::{Design, inputs};
+use crate::design::Design;
+use crate::file::inputs;
 
 /// Where the inertia of a race comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,8 @@
 //! What the pages of all answers share: head, drawings of a clutch, the inputs.
 
 use super::{TOOL, VERSION};
-use crate::design::{Design, Input, inputs, unit_of_key};
+use crate::design::Design;
+use crate::file::{Input, inputs, unit_of_key};
 use crate::profile::Profile;
 use crate::report::{Cell, Column, Drawing, Page, PageHead, Plot, Rows, SpragPose, Table, Unit};
 use crate::wedge::{Closure, WedgeCurve};

@@ -5,7 +5,8 @@ use super::check::{
 };
 use super::{Finding, Said};
 use crate::clutch::Scenario;
-use crate::design::{Design, shown};
+use crate::design::Design;
+use crate::file::shown;
 use crate::follow::Follow;
 use crate::margin::{Demand, Margin, load_state, lowest_capacity, scene_demand, scene_rows};
 use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit, significant};

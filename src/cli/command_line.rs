@@ -1,7 +1,7 @@
 //! The command line as typed: told again in reports, and refused where an option lacks its value.
 
 use super::{command, output};
-use crate::design::unprintable;
+use crate::file::unprintable;
 
 /// The command line as a shell would take it again, on one line; the program by its name, not by its path.
 pub(super) fn command_line(args: impl Iterator<Item = String>) -> String {

@@ -1,7 +1,7 @@
 //! Exit codes, promised to scripts.
 
 use crate::answer::Finding;
-use crate::design::{DesignError, shown};
+use crate::file::{DesignError, shown};
 use crate::margin::NoMargins;
 use serde_json::{Value, json};
 use std::fmt::Display;

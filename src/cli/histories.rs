@@ -3,7 +3,8 @@
 
 use super::exit::Failure;
 use super::output::{Outputs, folder_of};
-use crate::design::{Design, MOST_TABLE, read_text};
+use crate::design::Design;
+use crate::file::{MOST_TABLE, read_text};
 use std::path::{Path, PathBuf};
 
 /// Files to be written beside a new design.

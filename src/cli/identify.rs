@@ -6,7 +6,7 @@ use super::histories::Histories;
 use super::origin::FileKind;
 use super::{Context, Run};
 use crate::answer::identification::{Identification, StoppedIdentification};
-use crate::design::{MOST_TABLE, read_text};
+use crate::file::{MOST_TABLE, read_text};
 use crate::identify::{FitSettings, NoFit, Unknown, identify, observations};
 use clap::Args;
 use serde_json::json;

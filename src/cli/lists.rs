@@ -3,7 +3,7 @@
 use super::exit::{Exit, Failure};
 use super::{Context, Run, Without, command, output};
 use crate::answer::{oils, steels};
-use crate::design::schema;
+use crate::file::schema;
 use crate::report::Rows;
 use clap::Args;
 use clap_complete::Shell;

@@ -6,7 +6,7 @@ use super::origin::FileKind;
 use super::output;
 use super::{Context, Run, Without, made, number};
 use crate::answer::sizing::taken_inertias;
-use crate::design::nearest_steel;
+use crate::file::nearest_steel;
 use crate::follow::Follow;
 use crate::material::{STEELS, Steel, steel};
 use crate::report::plain;

@@ -2,7 +2,7 @@
 
 use crate::answer::WRITTEN_BY;
 use crate::answer::sweep::SweepHead;
-use crate::design::is_history;
+use crate::file::is_history;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;

@@ -3,7 +3,7 @@
 use super::exit::Failure;
 use super::origin::FileKind;
 pub use crate::answer::{TOOL, VERSION};
-use crate::design::shown;
+use crate::file::shown;
 use crate::report::{Page, Table};
 use serde::Serialize;
 use serde_json::{Value, json};

@@ -5,7 +5,7 @@ use super::{Context, Run, positive};
 use crate::answer::Answer;
 use crate::answer::stiffness::{Fem, NoStiffness, StiffnessSettings, StiffnessStudy, page};
 use crate::clutch::LawName;
-use crate::design::{MOST_TABLE, read_text};
+use crate::file::{MOST_TABLE, read_text};
 use crate::wedge::Lengthwise;
 use clap::Args;
 use std::path::{Path, PathBuf};

@@ -4,7 +4,7 @@ use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::output::{self, Outputs};
 use super::{Context, Run, Without};
-use crate::design::MOST_TABLE;
+use crate::file::MOST_TABLE;
 use crate::studio::{Session, ToSave, page};
 use clap::Args;
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! The nouns: a clutch and its parts as it runs, what it is made to, what happens to it.
 //!
 //! In: values in SI. Out: [`Clutch`], [`Running`], [`Tolerances`], [`Scenario`]; the contact laws by name. Absent: files and
-//! their units (`design`), allowables (`margin`), how anything is answered. Equations: none of its own; triangle (9) is asked
+//! their units (`file`), allowables (`margin`), how anything is answered. Equations: none of its own; triangle (9) is asked
 //! of `profile`, Lame's press fit of `race`. Table 1 of the paper is a `Clutch`.
 
 mod drivetrain;

@@ -3,7 +3,7 @@
 //! In: nothing. Out: [`Scenario`], SI: name of its kind, duration, speeds, torques, a sentence. Absent: how one is answered.
 //! Equations: none.
 //!
-//! A further kind is a variant here with its lines below, its keys in `design::scenarios` and its start in
+//! A further kind is a variant here with its lines below, its keys in `file::scenarios` and its start in
 //! `scenario::prepare`.
 
 use super::{Clutch, DriveInertia};

@@ -7,7 +7,8 @@ mod subject;
 
 pub use subject::{Scene, Subject};
 
-use crate::design::{Design, Input, inputs};
+use crate::design::Design;
+use crate::file::{Input, inputs};
 use crate::margin::Margin;
 use crate::profile::Profile;
 
@@ -101,7 +102,7 @@ fn reach_m(profile: &Profile, turn_rad: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::with_setting;
+    use crate::file::with_setting;
 
     const TEXT: &str = include_str!("../../designs/huang2017-multi-arc.toml");
 

@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::check::{m, pa, rad_s};
+use super::units::{m, pa, rad_s};
 
 /// Another key without which a limit means nothing, and what that key is.
 type Need = (&'static str, &'static str);
@@ -59,12 +59,12 @@ impl LimitKey {
     }
 
     /// Value that a table of the file gives, in the file's unit.
-    pub(super) fn written(&self, file: &LimitsFile) -> Option<f64> {
+    pub(crate) fn written(&self, file: &LimitsFile) -> Option<f64> {
         (self.written)(file)
     }
 
     /// (this key, a key that it needs and `limits` lack, what that is), where this one is given.
-    pub(super) fn missing(&self, limits: &Limits) -> Vec<(&'static str, &'static str, &'static str)> {
+    pub(crate) fn missing(&self, limits: &Limits) -> Vec<(&'static str, &'static str, &'static str)> {
         let given = |name: &str| LIMIT_KEYS.iter().any(|k| k.name == name && k.value(limits).is_some());
         let missing = |(needed, what): &Need| (!given(needed)).then_some((self.name, *needed, *what));
         if given(self.name) { self.needs.iter().filter_map(missing).collect() } else { Vec::new() }
@@ -93,7 +93,7 @@ macro_rules! limits {
         /// Allowables of the margin check; an absent one is not checked.
         #[derive(Debug, Default, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
-        pub(super) struct LimitsFile {
+        pub(crate) struct LimitsFile {
             /// true: Hertz pressures and mean hoop stresses that are absent here are those which the library allows the
             /// materials that [material] names, with the torques at which they are held.
             pub from_material: Option<bool>,

@@ -1,67 +1,22 @@
-//! The design file: read, checked, changed; the checked, immutable design that comes of it.
+//! The checked, immutable design: a clutch with its limits, its scenarios and what is asked of it.
 //!
-//! In: a design file (TOML, mm, rad, GPa, rev/min). Out: [`Design`], SI, or [`DesignError`] with every key at fault; texts
-//! with values changed. Absent: any physics; what a clutch is (`clutch`). Equations: none.
+//! In: values that somebody has checked (`file`, for one). Out: [`Design`], SI, with [`Limits`] and the task [`Optimize`]; the units in
+//! which these are written. Absent: TOML, which reads and changes a design (`file`); any physics; what a clutch is (`clutch`).
+//! Equations: none.
 
-mod axial;
-mod check;
-mod contact_file;
-mod diagnostic;
-mod document;
 mod draft;
-mod drivetrain;
-mod drivetrain_file;
-mod eccentricity;
-mod edit;
-mod file;
-mod findings;
-mod form;
-mod geometry;
-mod history;
-mod inputs;
-mod life_file;
 mod limits;
-mod lubrication_file;
-mod notes;
 mod objective;
-mod open;
-mod outline;
-mod random_torque;
-mod read;
-mod running;
-mod scenario_file;
-mod scenarios;
-mod set;
-mod shape;
-mod sharing_file;
-mod steels;
-mod task;
-mod task_file;
-mod tolerances_file;
-mod variables;
+mod units;
 mod which;
 
-pub use check::{rad_s, rpm};
-pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
 pub use draft::{BOX, Draft, DraftScene, KINETIC_SHARE};
-pub use edit::{
-    EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_spiral,
-    with_sprag, with_values,
-};
-pub use form::DesignForm;
-pub use history::is_history;
-pub use inputs::{Input, inputs, unit_of_path};
+pub(crate) use limits::LimitsFile;
 pub use limits::{LIMIT_KEYS, LimitKey, Limits};
-pub use notes::with_notes;
 pub use objective::{Link, Objective, Optimize, OptimizeVariable, multiple};
-pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
-pub use read::foreign;
-pub use scenarios::{KindKeys, SCENARIO_KINDS};
-pub use set::with_setting;
-pub use shape::{allowed, keys_of, nearest, paths_of, schema, shape_of};
-pub use steels::{beside_the_name, names_of_bodies, nearest_steel};
-pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
-pub use which::WhichScenario;
+pub(crate) use units::{m, pa};
+pub use units::{rad_s, rpm};
+pub use which::{WhichScenario, nearest};
 
 use crate::clutch::{Clutch, Scenario, Service, Sharing, Tolerances};
 

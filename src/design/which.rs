@@ -1,7 +1,14 @@
 //! One of a design's scenarios: by name, or the only one.
 
-use super::{Design, Scenario, nearest};
+use super::{Design, Scenario};
 use std::fmt;
+
+/// The known name that is much like `name`.
+pub fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
+    let likeness = |k: &&'k str| (strsim::jaro_winkler(&name.to_lowercase(), &k.to_lowercase()), *k);
+    let best = known.iter().map(likeness).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 > 0.8).then_some(best.1)
+}
 
 /// Why it is not known which scenario is meant.
 #[derive(Debug, Clone, PartialEq, Eq)]

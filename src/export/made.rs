@@ -2,7 +2,8 @@
 
 use super::part::{DrawnClutch, Part};
 use crate::clutch::Clutch;
-use crate::design::{Design, DesignError};
+use crate::design::Design;
+use crate::file::DesignError;
 use crate::profile::{Outline, OutlineError, Profile, ProfileError};
 use std::fmt;
 

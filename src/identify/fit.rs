@@ -14,7 +14,8 @@ use super::no_fit::{NoFit, SoFar};
 use super::observation::{Observation, ObservedQuantity, Use};
 use super::predict::{NoPrediction, Prediction, design_with, predict};
 use super::statistics::{Doubt, INSEPARABLE, Knowledge, correlation, knowledge, moved_by};
-use crate::design::{Design, inputs, is_whole, nearest, value_at, variable_names, variable_path};
+use crate::design::{Design, nearest};
+use crate::file::{inputs, is_whole, value_at, variable_names, variable_path};
 use crate::follow::Follow;
 use crate::numeric::setting::{BadSetting, in_range};
 

@@ -300,7 +300,7 @@ fn row(
         needs(&sigma_column, sigma, "a standard error above 0")?;
         all.push(Observation {
             line,
-            label: cell("label").map_or_else(|| format!("line {line}"), crate::design::shown),
+            label: cell("label").map_or_else(|| format!("line {line}"), crate::file::shown),
             keys: keys.clone(),
             kind,
             value,

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::observation::{Observation, ObservedQuantity};
-use crate::design::{Design, EditError, rpm, with_keys};
+use crate::design::{Design, rpm};
+use crate::file::{EditError, with_keys};
 use crate::margin::{LIFT_OFF_TO_RAD_S, LoadState, lift_off_rad_s, load_state, nominal_capacity};
 use crate::wedge::StaticPoint;
 

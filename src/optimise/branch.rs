@@ -8,7 +8,8 @@ use super::desk::Desk;
 use super::outcome::{Outcome, Refusal, Status};
 use super::problem::ClutchProblem;
 use super::starts::{Climbed, Optima, SearchMethod, climb_all, rank, rescued};
-use crate::design::{OptimizeVariable, with_values};
+use crate::design::OptimizeVariable;
+use crate::file::with_values;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 

@@ -12,9 +12,8 @@ use super::outcome::Outcome;
 use super::problem::ClutchProblem;
 use super::search::Search;
 use super::settings::Settings;
-use crate::design::{
-    Design, LIMIT_KEYS, LimitKey, is_whole, value_at, variable_names, variable_path, variable_unit,
-};
+use crate::design::{Design, LIMIT_KEYS, LimitKey};
+use crate::file::{is_whole, value_at, variable_names, variable_path, variable_unit};
 use crate::margin::{CONTACT, Demand, Margin};
 
 /// Farthest a dimension goes from its value, as a share of it: a choice, beyond it is another clutch.

@@ -11,7 +11,8 @@ use super::realise::is_centroid;
 use super::search::Search;
 use super::settings::Settings;
 use super::starts::rank;
-use crate::design::{Link, multiple, variable_unit};
+use crate::design::{Link, multiple};
+use crate::file::variable_unit;
 use crate::margin::Margin;
 use std::cmp::Ordering;
 

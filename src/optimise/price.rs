@@ -5,7 +5,7 @@ use super::influence::Influence;
 use super::outcome::Outcome;
 use super::problem::{Assessment, ClutchProblem};
 use super::settings::Settings;
-use crate::design::variable_unit;
+use crate::file::variable_unit;
 use crate::margin::{Beyond, Demand, Margin, Rule, When, courses, load_state};
 
 /// Torque step, relative, over which the slope of a demand is taken below the torque where its limit is reached.

@@ -8,16 +8,15 @@ use super::goal::{Goal, Measure, measures};
 use super::grid::made;
 use super::smooth;
 use crate::clutch::Scenario;
-use crate::design::{
-    Design, DesignForm, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content,
-    with_limits, with_values,
-};
+use crate::design::{Design, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize};
 use crate::fidelity::{self, Effort};
+use crate::file::{DesignForm, EditError, content, with_limits, with_values};
 use crate::margin::{
     Capacities, LoadState, Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins,
     scene_margins, scene_rows, unlike_margins,
 };
 use crate::scenario::{AtRest, RollingTrack, Settings, demand, demand_tracked};
+use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// How an evaluation is computed.
@@ -98,12 +97,12 @@ pub struct ClutchProblem {
 }
 
 /// Rows of a scene at a corner, by its number.
-type SceneRows<'a> = dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin> + 'a;
+type SceneRows<'a> = dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin> + Sync + 'a;
 
-/// How an evaluation is taken.
+/// How an evaluation is taken. Corners and scenes are taken side by side where threads are free.
 struct Way<'a> {
     /// The load state, before rows are read from it.
-    state: &'a dyn Fn(&Design, LoadState) -> LoadState,
+    state: &'a (dyn Fn(&Design, LoadState) -> LoadState + Sync),
     scene: &'a SceneRows<'a>,
 }
 
@@ -344,29 +343,33 @@ impl ClutchProblem {
         let state = (way.state)(design, state);
         let raised = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let capacities = if raised { Capacities::Wanted } else { Capacities::LeftOut };
-        let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
-        rows.retain(|m| m.required);
-        if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
-            rows.extend(smooth::flank_rows(design, &state));
-        }
-        let scenes = |rows: &mut Vec<Margin>, wanted: &dyn Fn(&String) -> bool| {
-            for scenario in design.scenarios.iter().filter(|s| wanted(&s.name)) {
-                rows.extend((way.scene)(k, scenario, state.at_rest(design)));
-                // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
-                if let Some(row) = rows.iter().find(|r| !r.computed()) {
-                    return Err(NoEvaluation::Refused(row.full_name()));
-                }
+        let loaded = || {
+            let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
+            rows.retain(|m| m.required);
+            if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
+                rows.extend(smooth::flank_rows(design, &state));
             }
-            Ok(())
+            rows
         };
-        scenes(&mut rows, &|name| self.scenarios.contains(name))?;
+        let scenes = |wanted: &(dyn Fn(&String) -> bool + Sync)| {
+            let asked: Vec<&Scenario> = design.scenarios.iter().filter(|s| wanted(&s.name)).collect();
+            let rows = asked.par_iter().map(|scenario| (way.scene)(k, scenario, state.at_rest(design)));
+            let rows = rows.collect::<Vec<_>>().concat();
+            // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
+            match rows.iter().find(|r| !r.computed()) {
+                Some(row) => Err(NoEvaluation::Refused(row.full_name())),
+                None => Ok(rows),
+            }
+        };
+        let (mut rows, of_scenes) = rayon::join(loaded, || scenes(&|name| self.scenarios.contains(name)));
+        rows.extend(of_scenes?);
         let mut measures_of_goals = Vec::new();
         for (k, goal) in self.goals.iter().enumerate() {
             let found = measures(goal.objective, design, &self.limits, &self.target, &state, &rows);
             measures_of_goals.extend(found.into_iter().map(|m| Measure { goal: k, ..m }));
         }
         if self.as_checked {
-            scenes(&mut rows, &|name| self.checked.contains(name) && !self.scenarios.contains(name))?;
+            rows.extend(scenes(&|name| self.checked.contains(name) && !self.scenarios.contains(name))?);
             let off_centre = RunOut::new(design, &state)
                 .map(|ring| run_out_margins(design, &self.limits, &ring, Capacities::LeftOut))
                 .unwrap_or_default();
@@ -422,19 +425,22 @@ impl ClutchProblem {
     /// The same on its way.
     fn assess_at_with(&self, x: &[f64], way: &Way) -> Result<Assessment, NoEvaluation> {
         let design = self.asked_at(x)?;
-        let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
-        for (k, corner) in self.corners.iter().enumerate() {
-            let mut found = if corner.is_nominal() {
-                self.assess_with(&design, way, k)?
-            } else {
-                let there = perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
-                self.assess_with(&there, way, k)?
-            };
-            if !corner.is_nominal() {
-                let name = corner.name();
-                found.rows.iter_mut().for_each(|r| r.corner = Some(name.clone()));
-                found.measures.iter_mut().for_each(|m| m.code = format!("{} @ {name}", m.code));
+        let at = |(k, corner): (usize, &Corner)| {
+            if corner.is_nominal() {
+                return self.assess_with(&design, way, k);
             }
+            let there = perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
+            let mut found = self.assess_with(&there, way, k)?;
+            let name = corner.name();
+            found.rows.iter_mut().for_each(|r| r.corner = Some(name.clone()));
+            found.measures.iter_mut().for_each(|m| m.code = format!("{} @ {name}", m.code));
+            Ok(found)
+        };
+        let found: Vec<Result<Assessment, NoEvaluation>> =
+            self.corners.par_iter().enumerate().map(at).collect();
+        let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
+        for found in found {
+            let found = found?;
             all.rows.extend(found.rows);
             all.measures.extend(found.measures);
         }

@@ -4,7 +4,8 @@ use super::desk::Desk;
 use super::outcome::Outcome;
 use super::problem::ClutchProblem;
 use crate::clutch::ScenarioKind;
-use crate::design::{Design, with_keys};
+use crate::design::Design;
+use crate::file::with_keys;
 use crate::margin::Margin;
 use serde::Serialize;
 

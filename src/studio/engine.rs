@@ -2,7 +2,8 @@
 
 use super::scene::{SceneRow, SceneView, scene_row, scene_view};
 use super::view::{Solved, StudioView};
-use crate::design::{Design, DesignError, with_setting};
+use crate::design::Design;
+use crate::file::{DesignError, with_setting};
 use crate::margin::NoMargins;
 use crate::scenario::{NoScenario, Settings};
 use serde_json::{Value, json};

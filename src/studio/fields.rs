@@ -1,6 +1,7 @@
 //! Every number of a design that the page lets one change: from the file and its schema.
 
-use crate::design::{Design, Input, inputs, shape_of, variable_path};
+use crate::design::Design;
+use crate::file::{Input, inputs, shape_of, variable_path};
 use crate::report::Unit;
 use serde::Serialize;
 
@@ -107,7 +108,7 @@ fn field(design: &Design, input: Input, like: f64) -> Option<Field> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::with_setting;
+    use crate::file::with_setting;
 
     #[test]
     fn an_allowed_gap_slides_about_the_gap() {

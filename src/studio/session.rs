@@ -3,7 +3,8 @@
 use super::engine::{Engine, StudioRefusal};
 use super::search::Searching;
 use crate::answer::{VERSION, WRITTEN_BY};
-use crate::design::{Design, shown};
+use crate::design::Design;
+use crate::file::shown;
 use crate::follow::Follow;
 use crate::scenario::Settings;
 use serde_json::{Value, json};

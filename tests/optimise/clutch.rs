@@ -195,7 +195,7 @@ fn a_hopeless_scene_says_what_would_free_it() {
     let needed = preload.needed.expect("preload frees");
     let alone = found.problem.for_scenario("high-10");
     let holds = |value: f64| {
-        let text = sprag_design::design::with_keys(&text, &[(preload.key.as_str(), value)]).unwrap();
+        let text = sprag_design::file::with_keys(&text, &[(preload.key.as_str(), value)]).unwrap();
         let rows = alone.assess(&alone.parsed(&text).unwrap()).unwrap().rows;
         margin(&rows, "contact:high-10") >= -1e-8 && margin(&rows, "slip:high-10") >= -1e-8
     };

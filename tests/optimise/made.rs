@@ -167,13 +167,13 @@ fn limits_that_follow_from_the_material_are_not_frozen() {
 #[test]
 fn flanks_are_written_without_a_negative_zero_and_as_variables() {
     let flanks = Flanks { front_tilt_rad: -0.0, ..Flanks::parallel(2.5e-3, 2.0e-3) };
-    let text = sprag_design::design::with_flanks(HUANG, &flanks).unwrap_or_else(|e| panic!("{e}"));
+    let text = sprag_design::file::with_flanks(HUANG, &flanks).unwrap_or_else(|e| panic!("{e}"));
     assert!(
         text.contains("front_tilt_rad = 0.0") && !text.contains("-0.0 ") && !text.contains("-0.0}"),
         "{text}"
     );
     let drop = |name: &str| name.starts_with("centroid_");
-    let other = sprag_design::design::other_variables(&text, &drop, &[("flank_rear_mm", (1.0, 3.0))]);
+    let other = sprag_design::file::other_variables(&text, &drop, &[("flank_rear_mm", (1.0, 3.0))]);
     let other =
         Design::parse(&other.unwrap_or_else(|e| panic!("{e}")), "x.toml").unwrap_or_else(|e| panic!("{e}"));
     let names: Vec<&str> = task(&other).variables.iter().map(|v| v.name.as_str()).collect();

@@ -2,7 +2,8 @@
 
 use super::clutch::{HUANG, PEER_A, changed, design, margin, search_with, task};
 use sprag_design::Follow;
-use sprag_design::design::{Design, LIMIT_KEYS, schema, with_keys};
+use sprag_design::design::{Design, LIMIT_KEYS};
+use sprag_design::file::{schema, with_keys};
 use sprag_design::margin::margins;
 use sprag_design::optimise::*;
 

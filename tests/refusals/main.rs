@@ -4,7 +4,8 @@ mod axial;
 mod margins;
 mod optimize;
 
-use sprag_design::design::{Design, DesignError};
+use sprag_design::design::Design;
+use sprag_design::file::DesignError;
 
 const DESIGN: &str = include_str!("../../designs/huang2017-multi-arc.toml");
 

@@ -23,7 +23,8 @@ pub(super) use text::{REACHED_AT, much_friction, size_line};
 use super::left_out::{LeftOut, left_out_of, off_centre};
 use super::{Answer, Envelope, Finding, Provenance};
 use crate::clutch::Scenario;
-use crate::design::{Design, beside_the_name};
+use crate::design::Design;
+use crate::file::beside_the_name;
 use crate::follow::Follow;
 use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, scene_demand, scene_rows,

@@ -3,7 +3,7 @@
 use super::figures::FIGURES;
 use super::{Comparison, tables, unit_of};
 use crate::compare::{Scene, SideBySide};
-use crate::design::Input;
+use crate::file::Input;
 use crate::margin::Margin;
 use serde::Serialize;
 

@@ -5,7 +5,7 @@ use super::{Comparison, farthest, letter, proud, unit_of, with_unit};
 use crate::answer::Answer;
 use crate::answer::check::{in_place_of_margin, margin_cell};
 use crate::compare::{Scene, SideBySide};
-use crate::design::Input;
+use crate::file::Input;
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin};
 use crate::report::{Cell, Rows, Screen, Table, Unit, significant};
 

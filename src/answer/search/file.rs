@@ -4,7 +4,8 @@
 use super::words::shown;
 use super::{SearchAnswer, Story};
 use crate::answer::{TOOL, VERSION, WRITTEN_BY};
-use crate::design::{Design, DesignError, EditError, with_notes};
+use crate::design::Design;
+use crate::file::{DesignError, EditError, with_notes};
 use crate::optimise::{Status, Variable};
 use crate::size::NOT_OPTIMISED;
 use std::fmt;

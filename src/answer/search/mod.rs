@@ -26,7 +26,8 @@ pub use story::Story;
 pub use words::Hints;
 
 use super::left_out::{LeftOut, left_out_of};
-use crate::design::{Design, DesignError, Objective};
+use crate::design::{Design, Objective};
+use crate::file::DesignError;
 use crate::follow::Follow;
 use crate::optimise::{Desk, Forgetful, NoSearch, Record, Settings};
 use crate::scenario;

@@ -3,7 +3,7 @@
 use super::head::{Holds, SweepHead};
 use super::map::{MapPair, MapPoint, MapVariable, SweepMap};
 use crate::answer::{Provenance, TOOL, VERSION};
-use crate::design::variable_unit;
+use crate::file::variable_unit;
 use crate::report::heat::{KINDS, SHADES};
 use crate::report::{
     HeatMap, Page, PageHead, Parallel, Rows, Screen, Shade, Table, Tone, Unit, plain, significant,

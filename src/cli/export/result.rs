@@ -3,8 +3,9 @@
 use crate::answer::finite_elements::FiniteElements;
 use crate::cli::Context;
 use crate::cli::exit::{Exit, Failure};
-use crate::design::{Design, MOST_RESULT, read_text};
+use crate::design::Design;
 use crate::export::calculix::read;
+use crate::file::{MOST_RESULT, read_text};
 use std::path::Path;
 use std::time::Instant;
 

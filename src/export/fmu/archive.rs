@@ -1,8 +1,9 @@
 //! The archive of a unit: description, library, design file with its histories.
 
 use super::{Fmi, MARK, MODEL, description};
-use crate::design::{Design, inputs};
+use crate::design::Design;
 use crate::element::{Beginning, Element, NoElement, Settings};
+use crate::file::inputs;
 use rawzip::{CompressionMethod, ZipArchiveWriter};
 use std::env::consts::{ARCH, DLL_SUFFIX, OS};
 use std::fmt;

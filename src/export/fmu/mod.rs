@@ -13,7 +13,8 @@ pub use archive::{HistoryReader, NoUnit, UnitArchive, archive, inertias_beyond};
 pub use description::description;
 pub use units::{FmiUnit, UNITS, unit};
 
-use crate::design::{Design, inputs, shape_of, variable_path};
+use crate::design::Design;
+use crate::file::{inputs, shape_of, variable_path};
 
 /// Name of the library inside a unit, and of the model.
 pub const MODEL: &str = "sprag_clutch";

@@ -10,8 +10,8 @@ use crate::margin::{
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::scenario::{AtRest, RollingTrack, demand_retraced};
 use rayon::prelude::*;
-use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, VecDeque};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
 /// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
@@ -83,32 +83,36 @@ impl ClutchProblem {
 
     /// The evaluation at `x`, and what its scenes integrated.
     fn tracked(&self, x: &[f64]) -> Result<(Evaluation, Arc<Tracks>), NoEvaluation> {
-        let tracks = RefCell::new(Tracks::new());
+        let tracks = Mutex::new(Tracks::new());
+        let keep = |of: (usize, String), track| {
+            tracks.lock().unwrap_or_else(|e| e.into_inner()).insert(of, track);
+        };
         let scene = |k: usize, scenario: &Scenario, known: AtRest| {
             let (rows, track) = self.scene(scenario, known);
-            tracks.borrow_mut().insert((k, scenario.name.clone()), track);
+            keep((k, scenario.name.clone()), track);
             rows
         };
         let assessed = self.assess_at_with(x, &self.in_whole(&scene))?;
-        Ok((self.evaluation(&assessed), Arc::new(tracks.into_inner())))
+        let tracks = tracks.into_inner().unwrap_or_else(|e| e.into_inner());
+        Ok((self.evaluation(&assessed), Arc::new(tracks)))
     }
 
     /// The evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is none.
     /// `ends_alone`: known of a neighbour that [`ends_decide`]; `None`: to be seen.
     fn retraced(&self, x: &[f64], tracks: &Tracks, ends_alone: Option<bool>) -> Option<Here> {
-        let all_decide = Cell::new(true);
+        let all_decide = AtomicBool::new(true);
         let scene = |k: usize, scenario: &Scenario, known: AtRest| {
             let track = tracks.get(&(k, scenario.name.clone())).and_then(Option::as_ref);
             self.scene_beside(scenario, known, track)
         };
         let state = |design: &Design, state: LoadState| {
             let decide = ends_alone.unwrap_or_else(|| ends_decide(design, &self.limits, &state));
-            all_decide.set(all_decide.get() && decide);
+            all_decide.fetch_and(decide, Ordering::Relaxed);
             LoadState { ends_alone: decide, ..state }
         };
         let assessed = self.assess_at_with(x, &Way { state: &state, scene: &scene }).ok()?;
         let outputs = self.evaluation(&assessed).outputs();
-        Some(Here { outputs, ends_decide: all_decide.get() })
+        Some(Here { outputs, ends_decide: all_decide.into_inner() })
     }
 }
 

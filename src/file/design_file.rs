@@ -7,12 +7,12 @@
 use super::contact_file::ContactFile;
 use super::drivetrain_file::DriveFile;
 use super::life_file::LifeFile;
-use super::limits::LimitsFile;
 use super::lubrication_file::LubricationFile;
 use super::scenario_file::ScenarioFile;
 use super::sharing_file::SharingFile;
 use super::task_file::{CheckFile, OptimizeFile};
 use super::tolerances_file::TolerancesFile;
+use crate::design::LimitsFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -7,8 +7,9 @@ use super::document::{value_at, value_at_mut};
 use super::edit::lean;
 use super::history::{self, HistoryKind};
 use super::open;
+use super::shape;
 use super::variables::variable_path;
-use super::{Design, shape};
+use crate::design::Design;
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml::{Table, Value};
@@ -78,7 +79,7 @@ impl DesignForm {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::with_values;
+    use crate::file::with_values;
 
     /// Values of `text` in a form and in the text.
     fn both(text: &str, folder: &Path, values: &[(&str, f64)]) -> (Option<Design>, Option<Design>) {

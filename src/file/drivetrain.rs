@@ -3,12 +3,12 @@
 //! In: `[[drivetrain]]`, every key in its own range. Out: [`DriveInertia`]s, each after what it is joined to, of the whole
 //! file and of a scenario. Absent: how they move. Equations: none.
 
-use super::check::{m, pa};
 use super::drivetrain_file::{DriveFile, GasFile};
 use super::findings::Findings;
 use super::history::HistoryKind;
 use super::scenarios::Load;
 use crate::clutch::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
+use crate::design::{m, nearest, pa};
 use std::f64::consts::FRAC_PI_4;
 
 /// What an inertia may be joined to beside others.
@@ -79,7 +79,7 @@ fn names(files: &[DriveFile], out: &mut Findings) -> bool {
         let known: Vec<&str> =
             RACES.iter().map(|(race, _)| *race).chain(files.iter().map(|f| f.name.as_str())).collect();
         if !known.contains(&file.to.as_str()) {
-            let help = super::shape::nearest(&file.to, &known).map_or_else(
+            let help = nearest(&file.to, &known).map_or_else(
                 || "join it to a race, or to an inertia of [[drivetrain]] by its name".to_owned(),
                 |near| format!("did you mean {near}?"),
             );
@@ -242,7 +242,7 @@ pub(super) fn chosen(
     for name in chosen.unwrap_or_default() {
         let known: Vec<&str> = all.iter().map(|a| a.inertia.name.as_str()).collect();
         if !known.contains(&name.as_str()) {
-            let help = super::shape::nearest(name, &known).map_or_else(
+            let help = nearest(name, &known).map_or_else(
                 || format!("remove {name:?}"),
                 |near| format!("did you mean {near} for {name:?}?"),
             );

@@ -41,7 +41,7 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
     ("centroid_y_mm", "sprags.centroid.y_mm", "centroid, radially outward from C_e"),
 ];
 
-/// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](super::LIMIT_KEYS).
+/// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](crate::design::LIMIT_KEYS).
 #[cfg(test)]
 const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal", "lubrication", "sharing"];
 

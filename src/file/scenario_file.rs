@@ -1,10 +1,10 @@
 //! A scenario as written.
 //!
-//! In: TOML text. Out: these structs, in the file's units; see [`super::file`]. Absent: rules that join several keys.
+//! In: TOML text. Out: these structs, in the file's units; see [`super::design_file`]. Absent: rules that join several keys.
 //! Equations: none. The doc comments are the schema's descriptions.
 
 use super::contact_file::ContactFile;
-use super::file::{FrictionFile, MaterialFile, RacesFile, SpragsFile, SpringFile};
+use super::design_file::{FrictionFile, MaterialFile, RacesFile, SpragsFile, SpringFile};
 use super::random_torque::RandomTorqueFile;
 use super::scenarios::{KindFile, SCENARIO_KINDS};
 use schemars::{JsonSchema, Schema, SchemaGenerator};

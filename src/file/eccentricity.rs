@@ -4,11 +4,11 @@
 //! (`margin`); a gap too wide for a sprag, which is an answer of `check`. Equations: triangle (9), whose least gap is
 //! r_e + r_i1 - e_1.
 
-use super::check::m;
-use super::file::{CarrierFile, EccentricityFile};
+use super::design_file::{CarrierFile, EccentricityFile};
 use super::findings::Findings;
 use super::geometry::mm;
 use crate::clutch::{Carrier, Eccentricity, Races, Sprags};
+use crate::design::m;
 
 pub(super) fn si(file: &EccentricityFile) -> Eccentricity {
     Eccentricity {

@@ -3,11 +3,11 @@
 //! In: lengths, `[contact]`'s end profile, tilt, offset, slices. Out: [`Axial`], SI. Absent: what the shapes do to
 //! the contact. Equations: none.
 
-use super::check::m;
 use super::contact_file::{EndKindFile, EndProfileFile};
-use super::file::DesignFile;
+use super::design_file::DesignFile;
 use super::findings::Findings;
 use crate::clutch::{Axial, EndProfile};
+use crate::design::m;
 
 const PROFILE: &str = "contact.end_profile";
 /// Fewest slices that know a shape: of fewer, each is a step in the force.

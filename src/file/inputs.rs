@@ -3,8 +3,8 @@
 //! In: the file's text. Out: [`Input`]. Absent: keys that the file leaves to their defaults; what a value means (`shape`).
 //! Equations: none.
 
-use super::limits::LIMIT_KEYS;
 use super::variables::{unit_of_key, variable_unit};
+use crate::design::LIMIT_KEYS;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 /// One value.

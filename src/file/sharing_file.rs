@@ -3,10 +3,10 @@
 //! In: TOML text. Out: [`Sharing`]. Absent: what the sprags carry (`sharing`). Equations: none. The doc comments are the
 //! schema's descriptions.
 
-use super::check::m;
-use super::file::DesignFile;
+use super::design_file::DesignFile;
 use super::findings::Findings;
 use crate::clutch::{Clutch, GivenSprag, Sharing, Standing};
+use crate::design::m;
 use crate::profile::{Outline, least_pitch_rad};
 use schemars::JsonSchema;
 use serde::Deserialize;

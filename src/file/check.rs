@@ -1,40 +1,19 @@
 //! Rules that join several keys of one clutch, and the change to SI.
 //!
 //! In: the file's structs, every key in its own range. Out: [`Clutch`] and [`Limits`], SI. Absent: ranges of
-//! single keys ([`super::file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
+//! single keys ([`super::design_file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
 //! at first contact is asked of `profile`.
 
-use super::Limits;
 use super::contact_file::{ContactFile, StateFile};
-use super::file::{DesignFile, FrictionModelFile, RacesFile};
+use super::design_file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
-use super::limits::{LIMIT_KEYS, LimitsFile};
 use super::{axial, eccentricity, geometry, lubrication_file, running, steels};
 use crate::clutch::{
     Clutch, ContactLaw, Friction, LawName, Materials, ROLLER_COEFFICIENT, Races, Spring, StressState,
 };
+use crate::design::{LIMIT_KEYS, LimitsFile};
+use crate::design::{Limits, m};
 use std::f64::consts::FRAC_PI_2;
-
-/// mm to m. Division, because 1e-3 is no binary fraction: 4.68 mm becomes the double nearest to 4.68e-3 m
-/// oftener than by a product.
-pub(super) fn m(mm: f64) -> f64 {
-    mm / 1e3
-}
-
-/// rev/min to rad/s.
-pub fn rad_s(rpm: f64) -> f64 {
-    rpm * std::f64::consts::PI / 30.0
-}
-
-/// rad/s to rev/min.
-pub fn rpm(rad_s: f64) -> f64 {
-    rad_s * 30.0 / std::f64::consts::PI
-}
-
-/// MPa to Pa.
-pub(super) fn pa(mpa: f64) -> f64 {
-    mpa * 1e6
-}
 
 /// The clutch of a file, or `None` with the reasons in `out`.
 pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {

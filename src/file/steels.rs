@@ -2,13 +2,13 @@
 //!
 //! In: `[material]`. Out: [`Materials`], expansions, limits. Absent: the library itself (`material`). Equations: none.
 
-use super::Limits;
-use super::file::{BodyFile, MaterialFile};
+use super::design_file::{BodyFile, MaterialFile};
 use super::findings::Findings;
 use super::inputs::{Input, inputs};
-use super::limits::LimitsFile;
-use super::shape::nearest;
 use crate::clutch::Materials;
+use crate::design::Limits;
+use crate::design::LimitsFile;
+use crate::design::nearest;
 use crate::material::{Material, STEELS, Steel, steel};
 
 /// The keys that a material has; the first three make it complete where it has no name.

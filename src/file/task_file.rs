@@ -1,10 +1,10 @@
 //! `[check]` and `[optimize]` as written.
 //!
-//! In: TOML text. Out: these structs, in the file's units; see [`super::file`]. Absent: rules that join several keys.
+//! In: TOML text. Out: these structs, in the file's units; see [`super::design_file`]. Absent: rules that join several keys.
 //! Equations: none. The doc comments are the schema's descriptions.
 
-use super::limits::LimitsFile;
-use super::objective::Objective;
+use crate::design::LimitsFile;
+use crate::design::Objective;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -3,12 +3,12 @@
 //! In: `[races.press_fit]`, `[thermal]`, races and sprags as made. Out: races and sprags as run, [`Running`], SI. Absent:
 //! what a fit does ([`Fits::run`]). Equations: none.
 
-use super::check::m;
-use super::file::{DesignFile, RimFile};
+use super::design_file::{DesignFile, RimFile};
 use super::findings::Findings;
 use super::geometry::mm;
 use super::steels;
 use crate::clutch::{Fits, Joint, Materials, NotRunning, Races, Rim, Running, Sprags};
+use crate::design::m;
 
 /// Keys that change a radius, for refusals of what they lead to.
 const KEYS: [&str; 3] = ["thermal", "races.press_fit", "races"];

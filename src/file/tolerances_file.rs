@@ -3,8 +3,8 @@
 //! In: TOML text. Out: [`Tolerances`]. Absent: what they do to a clutch (`optimise`). Equations: none. The doc
 //! comments are the schema's descriptions.
 
-use super::check::m;
 use crate::clutch::Tolerances;
+use crate::design::m;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

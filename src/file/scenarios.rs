@@ -5,14 +5,15 @@
 
 use toml::{Table, Value};
 
-use super::check::{self, rad_s};
+use super::check;
+use super::design_file::DesignFile;
 use super::drivetrain;
-use super::file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
 use super::scenario_file::{ScenarioFile, StartFile};
 use super::shape;
 use super::steels::{self, BODIES, MATERIAL_KEYS};
+use crate::design::rad_s;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -3,13 +3,14 @@
 //! In: `[check]` and `[optimize]`, the names of the scenarios. Out: names that exist, [`Optimize`]. Absent:
 //! margins and searches. Equations: none.
 
-use super::file::DesignFile;
+use super::design_file::DesignFile;
 use super::findings::Findings;
-use super::objective::Objective;
 use super::scenarios::KindFile;
 use super::task_file::{OptimizeFile, VariableFile};
 use super::variables::{is_whole, variable_names, variable_path};
-use super::{Limits, Link, Optimize, OptimizeVariable, check, shape};
+use super::{check, shape};
+use crate::design::Objective;
+use crate::design::{Limits, Link, Optimize, OptimizeVariable};
 
 /// Widest range of a variable that takes whole numbers: a choice, one continuous search for each of them.
 const MOST_WHOLE: f64 = 40.0;

@@ -8,17 +8,18 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use super::design_file::DesignFile;
 use super::diagnostic::{DesignError, Problem, TextPlace};
 use super::document::Document;
 use super::edit::{EditError, content, without_keys};
-use super::file::DesignFile;
 use super::findings::Findings;
 use super::history;
 use super::open;
 use super::scenarios::Load;
 use super::set::with_setting;
 use super::tolerances_file::TolerancesFile;
-use super::{Design, Limits, check, life_file, scenarios, shape, sharing_file, task};
+use super::{check, life_file, scenarios, shape, sharing_file, task};
+use crate::design::{Design, Limits, nearest};
 
 const WHAT: &str = "a text file (UTF-8, TOML) that holds a clutch design";
 
@@ -61,7 +62,7 @@ impl Design {
                         let there = || Some(shape::paths_that_end_in(key)).filter(|paths| !paths.is_empty());
                         let in_scenes = known.first().is_some_and(|first| first.starts_with("scenarios["));
                         let meant = || in_scenes.then(|| known.join(" or "));
-                        let near = || shape::nearest(key, &near).map(str::to_owned);
+                        let near = || nearest(key, &near).map(str::to_owned);
                         let like = meant().or_else(near).or_else(|| Some(there()?.join(" or ")));
                         let help = like.unwrap_or_else(|| {
                             "`sprag-design explain` lists every name, `explain sprags` the keys of a table".to_owned()
@@ -201,7 +202,7 @@ impl Design {
     ///
     /// # Errors
     /// As [`Design::read`], where the races as made are no clutch.
-    pub fn as_made(&self) -> Result<super::Clutch, DesignError> {
+    pub fn as_made(&self) -> Result<crate::clutch::Clutch, DesignError> {
         if self.clutch.running.is_none() {
             return Ok(self.clutch.clone());
         }

@@ -3,8 +3,8 @@
 //! In: the text of a file with two named columns. Out: rows in SI, or its faults with line and column, which repeat nothing
 //! but numbers: it may be any file. Absent: reading files, what a history does. Equations: none.
 
-use super::check::rad_s;
 use super::diagnostic::{Problem, TextPlace};
+use crate::design::rad_s;
 
 /// Which history a file holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,7 +3,7 @@
 //! In: TOML text, histories. Out: [`Service`]. Absent: what comes of it (`life`). Equations: none. The doc comments are the
 //! schema's descriptions.
 
-use super::file::DesignFile;
+use super::design_file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
 use super::scenario_file::ScenarioFile;

@@ -3,11 +3,11 @@
 //! In: the `[sprags]` table, races in order. Out: [`Sprags`], SI. Absent: deformation; flanks and neighbours
 //! ([`super::outline`]); what a spiral is (`profile`). Equations: none of its own; triangle (9) at first contact is asked of `profile`.
 
-use super::check::m;
-use super::file::{InnerSpiralFile, SpiralCurveFile, SpragsFile};
+use super::design_file::{InnerSpiralFile, SpiralCurveFile, SpragsFile};
 use super::findings::Findings;
 use super::outline;
 use crate::clutch::{InnerArc, MassSource, Materials, Races, Sprags};
+use crate::design::m;
 use crate::profile::{Profile, ProfileError, Spiral, Support};
 
 /// Mass m_g kg, inertia I_g about the centroid kg m^2, centroid in the body frame m.

@@ -3,11 +3,11 @@
 //! In: TOML text. Out: [`Lubrication`]. Absent: the oils (`lubrication`), what a film does (`friction`). Equations: none. The doc
 //! comments are the schema's descriptions.
 
-use super::check::m;
-use super::file::DesignFile;
+use super::design_file::DesignFile;
 use super::findings::Findings;
-use super::shape::nearest;
 use crate::clutch::{Lubrication, SlipCase};
+use crate::design::m;
+use crate::design::nearest;
 use crate::lubrication::{OILS, Oil, oil};
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,6 +1,6 @@
 //! Holds a parsed file against the schema: every key known, present, of its type and in its range.
 //!
-//! In: the tree with places, the JSON Schema of [`super::file`]. Out: all problems at once, and the schema
+//! In: the tree with places, the JSON Schema of [`super::design_file`]. Out: all problems at once, and the schema
 //! itself for `schema`. Absent: rules that join keys. Equations: none.
 //!
 //! serde would stop at the first fault and knows no ranges; reading the rules from the schema keeps one
@@ -15,9 +15,10 @@ use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::design_file::DesignFile;
 use super::diagnostic::{MOST_COLLECTED, NO_SUCH_KEY, Problem, unprintable};
 use super::document::{Document, number_of};
-use super::file::DesignFile;
+use crate::design::nearest;
 
 /// No quantity of a clutch lies outside; keeps conversions to SI from overflow and underflow.
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e15;
@@ -269,13 +270,6 @@ fn help_for_unknown(name: &str, known: &[&str]) -> String {
         Some(key) => format!("did you mean {key}? Otherwise remove {name}"),
         None => format!("remove {name} or move it to the table where it belongs"),
     }
-}
-
-/// The known name that is much like `name`.
-pub fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
-    let likeness = |k: &&'k str| (strsim::jaro_winkler(&name.to_lowercase(), &k.to_lowercase()), *k);
-    let best = known.iter().map(likeness).max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (best.0 > 0.8).then_some(best.1)
 }
 
 fn bound(schema: &Value, name: &str) -> Option<f64> {

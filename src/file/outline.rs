@@ -3,10 +3,10 @@
 //! In: the `[sprags]` table, the placed profile. Out: [`Flanks`], [`Outline`]. Absent: the geometry itself
 //! (`profile`), neighbours under load (`margin`). Equations: none.
 
-use super::check::m;
-use super::file::SpragsFile;
+use super::design_file::SpragsFile;
 use super::findings::Findings;
 use super::geometry::{end_key, mm};
+use crate::design::m;
 use crate::profile::{FlankSide, Flanks, Outline, OutlineError, Profile, STEEPEST_RAD, clearance_m};
 
 /// The flanks that a file names, or both at half of its width; none where it has neither.
