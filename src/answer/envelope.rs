@@ -4,7 +4,7 @@ use super::left_out::{LeftOut, left_out_of};
 use super::page::{draw_inputs, opened};
 use crate::design::Design;
 use crate::report::{Page, Rows, Screen, Table, Tone};
-use serde::Serialize;
+use serde::ser::{Error, Serialize, Serializer};
 use serde_json::Value;
 
 /// Program name in every output.
@@ -39,8 +39,19 @@ pub struct Envelope<'a, B: Serialize> {
     pub body: B,
 }
 
+/// Keys that stand in the order of the alphabet in JSON, at every depth.
+#[derive(Debug, Clone)]
+pub struct ByAlphabet<B>(pub B);
+
+impl<B: Serialize> Serialize for ByAlphabet<B> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // A map of serde_json is in that order.
+        serde_json::to_value(&self.0).map_err(S::Error::custom)?.serialize(serializer)
+    }
+}
+
 /// The one JSON object of an answer.
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 struct Object<'a, B: Serialize> {
     tool: &'static str,
     version: &'static str,
@@ -264,7 +275,7 @@ mod tests {
 
     #[test]
     fn the_envelope_comes_first_and_holds_the_body() {
-        #[derive(Serialize)]
+        #[derive(serde::Serialize)]
         struct Body {
             pass: bool,
             margins: Vec<f64>,

@@ -32,35 +32,35 @@ pub struct Exported<'a> {
 /// An arc or a flank.
 #[derive(Debug, Clone, Serialize)]
 pub struct ArcBody {
-    /// The body that it bounds.
-    pub body: String,
-    /// Its name.
-    pub surface: String,
-    /// Centre, mm; null of a flank.
-    pub centre_mm: Option<[f64; 2]>,
-    /// Radius, mm.
-    pub radius_mm: Option<f64>,
     /// Azimuths of its ends from the centre, deg.
     pub angles_deg: Option<[f64; 2]>,
+    /// The body that it bounds.
+    pub body: String,
+    /// Centre, mm; null of a flank.
+    pub centre_mm: Option<[f64; 2]>,
     /// Its ends, mm; null of a full circle.
     pub ends_mm: Option<[[f64; 2]; 2]>,
+    /// Radius, mm.
+    pub radius_mm: Option<f64>,
+    /// Its name.
+    pub surface: String,
 }
 
 /// Keys of `export`.
 #[derive(Debug, Clone, Serialize)]
 pub struct ExportedBody<'a> {
+    /// Every arc and flank.
+    pub arcs: Vec<ArcBody>,
+    /// Its length, bytes.
+    pub bytes: usize,
     /// Name of the format.
     pub format: &'a str,
+    /// Mass of the drawn sprag over the one that the design gives; null: it gives none.
+    pub mass_over_given: Option<f64>,
     /// Which part is drawn.
     pub part: &'static str,
     /// Where the file is.
     pub written: Option<&'a str>,
-    /// Its length, bytes.
-    pub bytes: usize,
-    /// Mass of the drawn sprag over the one that the design gives; null: it gives none.
-    pub mass_over_given: Option<f64>,
-    /// Every arc and flank.
-    pub arcs: Vec<ArcBody>,
 }
 
 impl ArcBody {

@@ -29,22 +29,22 @@ pub type ResultPoint<'a> = (&'a ResultRow, &'a Option<StaticPoint>);
 /// Keys of an answer about a result of finite elements.
 #[derive(Debug, Clone, Serialize)]
 pub struct FiniteElementsBody<'a> {
-    /// The solver.
-    pub source: &'static str,
-    /// Variant of the deck.
-    pub variant: &'a str,
-    /// Size of its elements at the contacts, mm.
-    pub mesh_mm: f64,
-    /// How far the result has turned of what the deck asks for, 0 to 1.
-    pub turned: f64,
     /// Which windups stand beside each other, and what the law is stated with.
     pub compared: String,
-    /// What the law is stated with of windup, percent.
-    pub law_windup_error_percent: f64,
     /// The same of forces and tangents, percent.
     pub law_force_error_percent: f64,
+    /// What the law is stated with of windup, percent.
+    pub law_windup_error_percent: f64,
+    /// Size of its elements at the contacts, mm.
+    pub mesh_mm: f64,
     /// Each row, one of [`FiniteElements::points`].
     pub points: Rows<ResultPoint<'a>>,
+    /// The solver.
+    pub source: &'static str,
+    /// How far the result has turned of what the deck asks for, 0 to 1.
+    pub turned: f64,
+    /// Variant of the deck.
+    pub variant: &'a str,
 }
 
 impl<'a> FiniteElementsBody<'a> {

@@ -37,12 +37,12 @@ pub type ArcRow<'a> = (String, &'a Arcs, &'a Arc);
 /// A side of the sprag: its arcs, and how far the points lie from them.
 #[derive(Debug, Clone, Serialize)]
 pub struct SideBody<'a> {
+    /// Each arc.
+    pub arcs: Rows<ArcRow<'a>>,
     /// Distance of the farthest point, um.
     pub max_um: f64,
     /// Root mean square of the distances, um.
     pub rms_um: f64,
-    /// Each arc.
-    pub arcs: Rows<ArcRow<'a>>,
 }
 
 /// An inner arc as a design file has it.
@@ -57,48 +57,48 @@ pub struct InnerArcBody {
 /// Flanks as a design file has them.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct FlanksBody {
-    /// Distance of the rear one, mm.
-    pub rear_mm: f64,
     /// Distance of the front one, mm.
     pub front_mm: f64,
-    /// Tilt of the rear one, rad.
-    pub rear_tilt_rad: f64,
     /// Tilt of the front one, rad.
     pub front_tilt_rad: f64,
+    /// Distance of the rear one, mm.
+    pub rear_mm: f64,
+    /// Tilt of the rear one, rad.
+    pub rear_tilt_rad: f64,
 }
 
 /// The sprag found, as `[sprags]` of a design file has it.
 #[derive(Debug, Clone, Serialize)]
 pub struct FoundSprag {
-    /// Radius of the outer arc, mm.
-    pub outer_radius_mm: f64,
     /// Distance of the centres of the outer and the first inner arc, mm.
     pub centre_distance_mm: f64,
-    /// The inner arcs from first contact on.
-    pub inner_arcs: Vec<InnerArcBody>,
     /// The flanks.
     pub flanks: FlanksBody,
+    /// The inner arcs from first contact on.
+    pub inner_arcs: Vec<InnerArcBody>,
+    /// Radius of the outer arc, mm.
+    pub outer_radius_mm: f64,
 }
 
 /// Keys of `import`.
 #[derive(Debug, Clone, Serialize)]
 pub struct ImportedBody<'a> {
-    /// Where the new design is.
-    pub written: Option<&'a str>,
-    /// The design file that gives all else.
-    pub template: &'a str,
-    /// What the reader of the numbers should know.
-    pub said: Vec<String>,
     /// The inner side.
     pub inner: SideBody<'a>,
     /// The outer side.
     pub outer: SideBody<'a>,
+    /// What the reader of the numbers should know.
+    pub said: Vec<String>,
     /// Spirals through the inner side.
     pub spirals: Rows<&'a FittedSpiral>,
-    /// The one that stands in the new design in place of the arcs.
-    pub written_spiral: Option<&'static str>,
     /// The sprag found.
     pub sprags: FoundSprag,
+    /// The design file that gives all else.
+    pub template: &'a str,
+    /// Where the new design is.
+    pub written: Option<&'a str>,
+    /// The one that stands in the new design in place of the arcs.
+    pub written_spiral: Option<&'static str>,
 }
 
 impl<'a> SideBody<'a> {

@@ -3,7 +3,7 @@
 use super::check::{
     CheckRow, REACHED_AT, far_more_than_asked, margin_words, much_friction, people_table, size_line,
 };
-use super::{Finding, Said};
+use super::{ByAlphabet, Finding, Said};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::file::shown;
@@ -33,28 +33,28 @@ pub struct Sizing<'a> {
 /// Keys of `size`.
 #[derive(Debug, Clone, Serialize)]
 pub struct SizingBody<'a> {
-    /// True: a design was found.
-    pub sized: bool,
-    /// Where it was written.
-    pub written: Option<&'a str>,
-    /// Outside diameter, mm.
-    pub outside_mm: f64,
-    /// Width of the races, mm.
-    pub width_mm: f64,
-    /// Mass of sprags and races, g.
-    pub mass_g: f64,
     /// Drag torque in overrun, N m.
     pub drag_torque_nm: Option<f64>,
     /// Heat of that, W.
     pub heat_w: Option<f64>,
+    /// One row for each limit.
+    pub margins: ByAlphabet<Vec<CheckRow>>,
+    /// Mass of sprags and races, g.
+    pub mass_g: f64,
+    /// Outside diameter, mm.
+    pub outside_mm: f64,
+    /// True: a design was found.
+    pub sized: bool,
     /// Speed at which the races slide on the sprags there, rev/min.
     pub sliding_rpm: Option<f64>,
     /// Every race space tried, a row of [`tried`].
     pub tried: Rows<(usize, &'a Tried)>,
     /// What one should not overlook.
     pub warnings: &'a [String],
-    /// One row for each limit.
-    pub margins: Vec<CheckRow>,
+    /// Width of the races, mm.
+    pub width_mm: f64,
+    /// Where it was written.
+    pub written: Option<&'a str>,
 }
 
 impl<'a> SizingBody<'a> {
@@ -72,7 +72,7 @@ impl<'a> SizingBody<'a> {
             sliding_rpm: made.drag.map(|d| Unit::Rpm.from_si(d.sliding_rad_s)),
             tried: tried(&sized.tried, Some(sized.taken)),
             warnings: &sizing.warnings,
-            margins: made.margins.iter().map(|r| CheckRow::of(r, sizing.end_nm)).collect(),
+            margins: ByAlphabet(made.margins.iter().map(|r| CheckRow::of(r, sizing.end_nm)).collect()),
         }
     }
 }

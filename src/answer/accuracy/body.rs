@@ -4,6 +4,7 @@ use super::tables::{Point, points, points_of};
 use super::verdict::{WANTED_RAD, gains_over_published, winners};
 use super::{AccuracyStudy, map};
 use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS, Precision};
+use crate::answer::ByAlphabet;
 use crate::report::Rows;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -22,16 +23,16 @@ impl<V: Serialize> Serialize for Keyed<V> {
 /// The reference run of a scene.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct ReferenceBody {
-    /// Rotation of the inner race at the end, rad.
-    pub theta_inner_end_rad: f64,
-    /// Slip margin; null where no friction suffices.
-    pub slip_margin: Option<f64>,
     /// Changes of mode.
     pub events: u64,
-    /// What the rotation moves by at ten times the tolerance and twice the longest step, rad.
-    pub theta_inner_error_rad: f64,
+    /// Slip margin; null where no friction suffices.
+    pub slip_margin: Option<f64>,
     /// The same of the slip margin.
     pub slip_margin_error: f64,
+    /// Rotation of the inner race at the end, rad.
+    pub theta_inner_end_rad: f64,
+    /// What the rotation moves by at ten times the tolerance and twice the longest step, rad.
+    pub theta_inner_error_rad: f64,
 }
 
 /// Time to build a model, s.
@@ -66,20 +67,20 @@ fn first_row<T, S: Serializer>(rows: &Rows<T>, serializer: S) -> Result<S::Ok, S
 /// A scene with its points.
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct SceneBody<'a> {
-    /// Name of the scenario.
-    pub scenario: &'a str,
-    /// What its points are held against.
-    pub reference: ReferenceBody,
-    /// Time to build the model.
-    pub prepare_time_s: PrepareTimes,
-    /// What the planner leaves out.
-    pub reduced_without: &'a [&'static str],
-    /// Each point.
-    pub points: Rows<Point<'a>>,
     /// The cheapest point of each method.
     pub cheapest: Vec<Cheapest<'a>>,
+    /// Each point.
+    pub points: Rows<Point<'a>>,
+    /// Time to build the model.
+    pub prepare_time_s: PrepareTimes,
     /// Time of the published scheme at its step over that of one run; null: one of both is not known.
     pub published_step_over_one_run: Option<f64>,
+    /// What the planner leaves out.
+    pub reduced_without: &'a [&'static str],
+    /// What its points are held against.
+    pub reference: ReferenceBody,
+    /// Name of the scenario.
+    pub scenario: &'a str,
 }
 
 /// A scene without a start.
@@ -165,7 +166,7 @@ pub struct AccuracyBody<'a> {
     /// Scenes without a start.
     pub without_start: Vec<WithoutStart<'a>>,
     /// The stability map.
-    pub stability_map: Option<StabilityBody>,
+    pub stability_map: Option<ByAlphabet<StabilityBody>>,
 }
 
 impl<'a> AccuracyBody<'a> {
@@ -175,7 +176,7 @@ impl<'a> AccuracyBody<'a> {
             wanted_error_rad: WANTED_RAD,
             scenes: study.scenes.iter().map(SceneBody::of).collect(),
             without_start: study.without_start.iter().map(without).collect(),
-            stability_map: (!study.cases.is_empty()).then(|| StabilityBody::of(study)),
+            stability_map: (!study.cases.is_empty()).then(|| ByAlphabet(StabilityBody::of(study))),
         }
     }
 }

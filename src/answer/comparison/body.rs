@@ -10,16 +10,16 @@ use serde::Serialize;
 /// A design.
 #[derive(Debug, Clone, Serialize)]
 pub struct ComparedDesign<'a> {
-    /// Its name.
-    pub name: &'a str,
-    /// Where it comes from.
-    pub file: &'a str,
-    /// SHA-256 of its file.
-    pub design_hash: &'a str,
-    /// Whether every required limit is held.
-    pub pass: bool,
     /// Code of the required limit with the least margin.
     pub deciding: Option<String>,
+    /// SHA-256 of its file.
+    pub design_hash: &'a str,
+    /// Where it comes from.
+    pub file: &'a str,
+    /// Its name.
+    pub name: &'a str,
+    /// Whether every required limit is held.
+    pub pass: bool,
 }
 
 /// The value of an input.
@@ -59,12 +59,12 @@ pub struct ComparedFigure {
 pub struct ComparedMargin<'a> {
     /// Its code.
     pub code: &'a str,
-    /// Whether it counts for the verdict.
-    pub required: Vec<Option<bool>>,
     /// Whether it is held.
     pub held: Vec<Option<bool>>,
     /// Its margin as a number.
     pub margins: Vec<Option<f64>>,
+    /// Whether it counts for the verdict.
+    pub required: Vec<Option<bool>>,
     /// Torque at which it would be reached, N m, where it depends on torque.
     pub torque_capacities_nm: Vec<Option<Option<f64>>>,
 }
@@ -72,14 +72,14 @@ pub struct ComparedMargin<'a> {
 /// A scene; null where a design does not have it or nothing is known.
 #[derive(Debug, Clone, Serialize)]
 pub struct ComparedScene<'a> {
+    /// Contact margin.
+    pub contact_margin: Vec<Option<Option<f64>>>,
     /// Its name.
     pub name: &'a str,
     /// Static friction from which on it sticks.
     pub required_friction: Vec<Option<Option<f64>>>,
     /// Static over required friction, less 1.
     pub slip_margin: Vec<Option<Option<f64>>>,
-    /// Contact margin.
-    pub contact_margin: Vec<Option<Option<f64>>>,
 }
 
 /// Keys of `compare`.
@@ -87,10 +87,10 @@ pub struct ComparedScene<'a> {
 pub struct ComparisonBody<'a> {
     /// The designs, the one before first.
     pub designs: Vec<ComparedDesign<'a>>,
-    /// Inputs that differ.
-    pub inputs: Vec<ComparedInput<'a>>,
     /// Figures side by side.
     pub figures: Vec<ComparedFigure>,
+    /// Inputs that differ.
+    pub inputs: Vec<ComparedInput<'a>>,
     /// Margins side by side.
     pub margins: Vec<ComparedMargin<'a>>,
     /// Scenes side by side.

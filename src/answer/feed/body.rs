@@ -10,30 +10,30 @@ use serde::Serialize;
 /// Keys of `feed`.
 #[derive(Debug, Clone, Serialize)]
 pub struct FeedBody<'a> {
-    /// Whether every frequency feeds as slow strokes do, and the clutch bears it.
-    pub held: bool,
-    /// The answer in a sentence.
-    pub verdict: String,
-    /// Angle that the driving race turns by and back, deg.
-    pub stroke_deg: f64,
-    /// Torque of the brake on the fed race, N m.
-    pub brake_nm: f64,
-    /// What turns with the fed race, this included, kg m^2.
-    pub inertia_kg_m2: f64,
-    /// The race that drives, `inner` or `outer`.
-    pub driver: &'static str,
     /// By how much a stroke may feed more or less than slow ones, deg.
     pub allowed_deg: f64,
-    /// What slow strokes feed less than the stroke by statics, deg.
-    pub windup_deg: f64,
-    /// The frequency at which it first ceases to feed as it should, Hz; null: not between two that were asked for.
-    pub limit_hz: Option<f64>,
-    /// Peak torque that every limit bears, N m.
-    pub bears_nm: Option<f64>,
     /// Code of the limit that sets it.
     pub bears_by: Option<&'a str>,
+    /// Peak torque that every limit bears, N m.
+    pub bears_nm: Option<f64>,
+    /// Torque of the brake on the fed race, N m.
+    pub brake_nm: f64,
+    /// The race that drives, `inner` or `outer`.
+    pub driver: &'static str,
     /// Each frequency, a row of [`FeedAnswer::frequencies`].
     pub frequencies: Rows<&'a Fed>,
+    /// Whether every frequency feeds as slow strokes do, and the clutch bears it.
+    pub held: bool,
+    /// What turns with the fed race, this included, kg m^2.
+    pub inertia_kg_m2: f64,
+    /// The frequency at which it first ceases to feed as it should, Hz; null: not between two that were asked for.
+    pub limit_hz: Option<f64>,
+    /// Angle that the driving race turns by and back, deg.
+    pub stroke_deg: f64,
+    /// The answer in a sentence.
+    pub verdict: String,
+    /// What slow strokes feed less than the stroke by statics, deg.
+    pub windup_deg: f64,
 }
 
 impl<'a> FeedBody<'a> {

@@ -13,28 +13,28 @@ pub type UnknownRow<'a> = (&'a Unknown, &'a f64, &'a Estimate, String);
 /// Keys of `identify`.
 #[derive(Debug, Clone, Serialize)]
 pub struct IdentificationBody<'a> {
-    /// Each unknown.
-    pub unknowns: Rows<UnknownRow<'a>>,
+    /// Whether the last step no longer mattered.
+    pub converged: bool,
     /// Correlation of what was found, by the numbers of the unknowns; null: not known.
     pub correlation: Option<&'a [Vec<f64>]>,
-    /// Each observation beside the model.
-    pub observations: Rows<&'a FittedPoint>,
-    /// Standard deviation of the scaled residuals; null: no degree of freedom.
-    pub residual_sigma: Option<f64>,
     /// Observations less unknowns.
     pub degrees_of_freedom: usize,
+    /// Whether the data determine every unknown.
+    pub determined: bool,
+    /// Evaluations of all fitted observations.
+    pub evaluations: usize,
+    /// Each observation beside the model.
+    pub observations: Rows<&'a FittedPoint>,
+    /// What the tables do not say.
+    pub remarks: Vec<String>,
+    /// Standard deviation of the scaled residuals; null: no degree of freedom.
+    pub residual_sigma: Option<f64>,
     /// Least over largest singular value of the scaled sensitivities.
     pub singular_ratio: f64,
     /// Sum of the squared scaled residuals at the end of each start.
     pub sums_of_squares: &'a [f64],
-    /// Evaluations of all fitted observations.
-    pub evaluations: usize,
-    /// Whether the last step no longer mattered.
-    pub converged: bool,
-    /// Whether the data determine every unknown.
-    pub determined: bool,
-    /// What the tables do not say.
-    pub remarks: Vec<String>,
+    /// Each unknown.
+    pub unknowns: Rows<UnknownRow<'a>>,
     /// Where the new design was written.
     pub written: Option<&'a str>,
 }

@@ -21,12 +21,12 @@ pub struct StoppedIdentification<'a> {
 /// An unknown with its best value, in the unit of its name.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct UnknownBody<'a> {
-    /// Name, its unit at the end.
-    pub name: &'a str,
-    /// Least value looked at.
-    pub min: f64,
     /// Largest value looked at.
     pub max: f64,
+    /// Least value looked at.
+    pub min: f64,
+    /// Name, its unit at the end.
+    pub name: &'a str,
     /// The best so far.
     pub value: f64,
 }
@@ -34,16 +34,16 @@ pub struct UnknownBody<'a> {
 /// Keys of an identification that was stopped.
 #[derive(Debug, Clone, Serialize)]
 pub struct StoppedBody<'a> {
-    /// True: it was stopped.
-    pub interrupted: bool,
     /// False: the search has not ended.
     pub converged: bool,
-    /// Each unknown.
-    pub unknowns: Vec<UnknownBody<'a>>,
-    /// Sum of the squared scaled residuals.
-    pub sum_of_squares: f64,
     /// Designs held against every row of the fit until then.
     pub evaluations: usize,
+    /// True: it was stopped.
+    pub interrupted: bool,
+    /// Sum of the squared scaled residuals.
+    pub sum_of_squares: f64,
+    /// Each unknown.
+    pub unknowns: Vec<UnknownBody<'a>>,
     /// Where the design was written.
     pub written: Option<&'a str>,
 }

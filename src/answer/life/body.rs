@@ -9,29 +9,29 @@ use serde::Serialize;
 /// A scenario that goes on for some time, as a load.
 #[derive(Debug, Clone, Serialize)]
 pub struct SwingBody<'a> {
-    /// Name of the scenario.
-    pub scenario: &'a str,
-    /// How long in the life, h.
-    pub hours: f64,
+    /// How often it does in the life.
+    pub engagements: f64,
     /// Its frequency, Hz.
     pub frequency_hz: f64,
     /// Least torque that the clutch carries in it, N m.
     pub from_nm: f64,
+    /// How long in the life, h.
+    pub hours: f64,
+    /// Name of the scenario.
+    pub scenario: &'a str,
     /// Largest torque that the clutch carries in it, N m.
     pub torque_nm: f64,
-    /// How often it does in the life.
-    pub engagements: f64,
 }
 
 /// Wear over the life.
 #[derive(Debug, Clone, Serialize)]
 pub struct WearBody<'a> {
-    /// Overrun in one life, h.
-    pub hours: f64,
     /// After how many lives a limit is broken; null: not within those looked at.
     pub broken_after_lives: Option<f64>,
     /// What is broken first.
     pub broken_by: Option<&'static str>,
+    /// Overrun in one life, h.
+    pub hours: f64,
     /// The clutch as it wears, a row of [`LifeAnswer::wear`] each.
     pub states: Rows<&'a WornState>,
 }
@@ -39,34 +39,34 @@ pub struct WearBody<'a> {
 /// Keys of `life`.
 #[derive(Debug, Clone, Serialize)]
 pub struct LifeBody<'a> {
-    /// Scenarios that go on for some time.
-    pub swings: Vec<SwingBody<'a>>,
-    /// Scenarios that swing and that the service does not name.
-    pub swings_not_counted: Vec<&'a str>,
-    /// Whether nothing fails before the end of the life, of what is known.
-    pub held: bool,
-    /// The answer in a sentence.
-    pub verdict: String,
     /// Engagements in the life.
     pub engagements: f64,
-    /// Largest torque of the life, N m.
-    pub largest_torque_nm: f64,
     /// Slips expected by chance in the life; null: nothing scatters.
     pub expected_slips: Option<f64>,
-    /// How many may be; null: the file does not say.
-    pub slips_allowed: Option<f64>,
-    /// Whether the largest torque indents a contact.
-    pub indents: bool,
-    /// Codes of the places that no strength is given for.
-    pub not_known: Vec<&'static str>,
+    /// Whether nothing fails before the end of the life, of what is known.
+    pub held: bool,
     /// By how much the largest load may grow until the inner contact is indented, a factor.
     pub indentation_inner: f64,
     /// The same of the outer contact.
     pub indentation_outer: f64,
-    /// Each place, a row of [`LifeAnswer::places`].
-    pub places: Rows<&'a Used>,
+    /// Whether the largest torque indents a contact.
+    pub indents: bool,
+    /// Largest torque of the life, N m.
+    pub largest_torque_nm: f64,
     /// Each load, a row of [`LifeAnswer::loads`].
     pub loads: Rows<&'a LoadEffect>,
+    /// Codes of the places that no strength is given for.
+    pub not_known: Vec<&'static str>,
+    /// Each place, a row of [`LifeAnswer::places`].
+    pub places: Rows<&'a Used>,
+    /// How many may be; null: the file does not say.
+    pub slips_allowed: Option<f64>,
+    /// Scenarios that go on for some time.
+    pub swings: Vec<SwingBody<'a>>,
+    /// Scenarios that swing and that the service does not name.
+    pub swings_not_counted: Vec<&'a str>,
+    /// The answer in a sentence.
+    pub verdict: String,
     /// Wear; absent where nothing is known to wear.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wear: Option<WearBody<'a>>,

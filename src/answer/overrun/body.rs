@@ -9,45 +9,45 @@ use serde::Serialize;
 /// The slip that the file asks for.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct SlipBody {
-    /// Torque that is carried, N m.
-    pub torque_nm: f64,
-    /// Speed of the slip, m/s.
-    pub speed_m_s: f64,
-    /// Path of the slip, mm.
-    pub path_mm: f64,
-    /// Normal force of one sprag, N.
-    pub normal_n: f64,
-    /// Friction coefficient.
-    pub friction: f64,
     /// Rise of the temperature in the contact, K.
     pub flash_k: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+    /// Normal force of one sprag, N.
+    pub normal_n: f64,
+    /// Path of the slip, mm.
+    pub path_mm: f64,
     /// Peclet number.
     pub peclet: f64,
-    /// Depth worn off the sprag, um.
-    pub sprag_wear_um: f64,
     /// Depth worn off the race, um.
     pub race_wear_um: f64,
+    /// Speed of the slip, m/s.
+    pub speed_m_s: f64,
+    /// Depth worn off the sprag, um.
+    pub sprag_wear_um: f64,
+    /// Torque that is carried, N m.
+    pub torque_nm: f64,
 }
 
 /// Keys of `overrun`.
 #[derive(Debug, Clone, Serialize)]
 pub struct OverrunBody<'a> {
-    /// The answer in a sentence.
-    pub verdict: String,
-    /// Which speeds were taken.
-    pub picked: String,
-    /// Name of the oil.
-    pub oil: &'a str,
-    /// The race that runs, `inner` or `outer`.
-    pub race: &'static str,
     /// Roughness of both surfaces together, Rq, um.
     pub composite_roughness_um: f64,
     /// Speed of the outer race at which the sprags lift off, rev/min; null: they do not.
     pub lift_off_rpm: Option<f64>,
     /// Each speed at each temperature.
     pub lines: Rows<&'a OverrunLine>,
+    /// Name of the oil.
+    pub oil: &'a str,
+    /// Which speeds were taken.
+    pub picked: String,
+    /// The race that runs, `inner` or `outer`.
+    pub race: &'static str,
     /// The slip that the file asks for.
     pub slip: Option<SlipBody>,
+    /// The answer in a sentence.
+    pub verdict: String,
     /// What one should not overlook.
     pub warnings: Vec<String>,
 }

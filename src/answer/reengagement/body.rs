@@ -10,10 +10,10 @@ use serde::Serialize;
 /// What would be borne where a blow is not.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct BorneBody {
-    /// Longest path of slip at the friction given, mm; null: not even the shortest that is tried.
-    pub path_mm: Option<f64>,
     /// Friction from which on the shortest path asked for is borne; null: none below what the torque needs.
     pub friction: Option<f64>,
+    /// Longest path of slip at the friction given, mm; null: not even the shortest that is tried.
+    pub path_mm: Option<f64>,
 }
 
 /// Where the slip itself throws the sprags out of reach.
@@ -21,57 +21,57 @@ pub struct BorneBody {
 pub struct ThrownBody {
     /// How long after the slip begins, ms.
     pub at_ms: f64,
+    /// Speed of the outer race, rev/min.
+    pub outer_rpm: f64,
     /// Path of slip until then, mm.
     pub path_mm: f64,
     /// Speed of the races against one another, rev/min.
     pub speed_rpm: f64,
-    /// Speed of the outer race, rev/min.
-    pub outer_rpm: f64,
 }
 
 /// Keys of `reengage`.
 #[derive(Debug, Clone, Serialize)]
 pub struct ReengagementBody<'a> {
-    /// Whether the clutch grips again after each path of slip, and every limit bears the blow.
-    pub held: bool,
-    /// The answer in a sentence.
-    pub verdict: String,
-    /// Torque that is carried when the slip begins, N m.
-    pub torque_nm: f64,
+    /// Code of the limit that sets it.
+    pub bears_by: Option<&'a str>,
+    /// Energy that the windup takes up from the torque carried to the one that the limits bear, J.
+    pub bears_j: Option<f64>,
+    /// Peak torque that every limit bears, N m.
+    pub bears_nm: Option<f64>,
+    /// Each path of slip, a row of [`ReengagementAnswer::blows`].
+    pub blows: Rows<&'a Blow>,
+    /// What would be borne; null where all is, or where it is not known.
+    pub borne: Option<BorneBody>,
+    /// The same to the end of the curve, J.
+    pub end_of_curve_j: Option<f64>,
     /// Friction while it slips.
     pub friction: f64,
-    /// Speed of both races before, rev/min.
-    pub speed_rpm: f64,
+    /// Whether the clutch grips again after each path of slip, and every limit bears the blow.
+    pub held: bool,
     /// What turns with the inner race, this included, kg m^2.
     pub inertia_inner_kg_m2: f64,
     /// What turns with the outer race, this included, kg m^2; null: it is held.
     pub inertia_outer_kg_m2: Option<f64>,
-    /// Whether the outer race keeps its speed whatever acts on it.
-    pub outer_held: bool,
-    /// Peak torque that every limit bears, N m.
-    pub bears_nm: Option<f64>,
-    /// Code of the limit that sets it.
-    pub bears_by: Option<&'a str>,
-    /// Each path of slip, a row of [`ReengagementAnswer::blows`].
-    pub blows: Rows<&'a Blow>,
-    /// Energy that the windup takes up from the torque carried to the one that the limits bear, J.
-    pub bears_j: Option<f64>,
-    /// The same to the end of the curve, J.
-    pub end_of_curve_j: Option<f64>,
-    /// Friction that the torque carried needs; null: none suffices.
-    pub torque_needs_friction: Option<f64>,
-    /// What would be borne; null where all is, or where it is not known.
-    pub borne: Option<BorneBody>,
-    /// The scenario whose speed was taken; null: it was given, or the design names none.
-    pub speed_of: Option<&'a str>,
-    /// Friction that is needed where the clutch does not slip.
-    pub needs_friction: Option<f64>,
-    /// Why the slip came to an end before the longest path.
-    pub slip_ended: Option<&'static str>,
     /// Speed of the outer race at which the sprags lift off in overrun, rev/min; null: they do not.
     pub lift_off_rpm: Option<f64>,
+    /// Friction that is needed where the clutch does not slip.
+    pub needs_friction: Option<f64>,
+    /// Whether the outer race keeps its speed whatever acts on it.
+    pub outer_held: bool,
+    /// Why the slip came to an end before the longest path.
+    pub slip_ended: Option<&'static str>,
+    /// The scenario whose speed was taken; null: it was given, or the design names none.
+    pub speed_of: Option<&'a str>,
+    /// Speed of both races before, rev/min.
+    pub speed_rpm: f64,
     /// Where the slip itself throws the sprags out of reach.
     pub thrown: Option<ThrownBody>,
+    /// Friction that the torque carried needs; null: none suffices.
+    pub torque_needs_friction: Option<f64>,
+    /// Torque that is carried when the slip begins, N m.
+    pub torque_nm: f64,
+    /// The answer in a sentence.
+    pub verdict: String,
 }
 
 impl BorneBody {

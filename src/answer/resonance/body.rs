@@ -10,18 +10,18 @@ use serde::Serialize;
 /// Keys of `resonance`.
 #[derive(Debug, Clone, Serialize)]
 pub struct ResonanceBody<'a> {
-    /// Name of the scenario.
-    pub scenario: &'a str,
     /// Amplitudes that a stop has left out.
     pub amplitudes_left: usize,
-    /// The answer in a sentence.
-    pub verdict: String,
-    /// Static friction that there is.
-    pub static_friction: f64,
     /// Whether both contacts roll everywhere.
     pub rolls: bool,
+    /// Name of the scenario.
+    pub scenario: &'a str,
     /// Each state, a row of [`ResonanceAnswer::states`].
     pub states: Rows<StateLine<'a>>,
+    /// Static friction that there is.
+    pub static_friction: f64,
+    /// The answer in a sentence.
+    pub verdict: String,
 }
 
 impl<'a> ResonanceBody<'a> {

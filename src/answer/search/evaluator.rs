@@ -11,25 +11,25 @@ use serde::Serialize;
 pub enum EvaluatedLine {
     /// A vector with its rows.
     Evaluated {
-        /// The vector.
-        x: Vec<f64>,
-        /// Scaled objectives, in the order that `--describe` names.
-        objectives: Vec<f64>,
-        /// Scaled limits, in that order; 0 or more is held.
-        limits: Vec<f64>,
-        /// The least objective.
-        least: f64,
-        /// By how much the worst limit is violated.
-        violation: f64,
         /// Whether every limit is held.
         feasible: bool,
+        /// The least objective.
+        least: f64,
+        /// Scaled limits, in the order that `--describe` names; 0 or more is held.
+        limits: Vec<f64>,
+        /// Scaled objectives, in that order.
+        objectives: Vec<f64>,
+        /// By how much the worst limit is violated.
+        violation: f64,
+        /// The vector.
+        x: Vec<f64>,
     },
     /// A vector at which there is no clutch, or outside its bounds.
     Refused {
-        /// The vector.
-        x: Vec<f64>,
         /// Why.
         refused: String,
+        /// The vector.
+        x: Vec<f64>,
     },
     /// No vector.
     Malformed {
@@ -41,12 +41,12 @@ pub enum EvaluatedLine {
 /// A variable of a problem, in the unit of its name.
 #[derive(Debug, Clone, Serialize)]
 pub struct VariableBody<'a> {
-    /// Its name.
-    pub name: &'a str,
-    /// Its lower bound.
-    pub min: f64,
     /// Its upper bound.
     pub max: f64,
+    /// Its lower bound.
+    pub min: f64,
+    /// Its name.
+    pub name: &'a str,
     /// Where a search starts.
     pub start: f64,
     /// Whether it is a whole number.
@@ -56,22 +56,22 @@ pub struct VariableBody<'a> {
 /// What rows and columns of evaluations are.
 #[derive(Debug, Clone, Serialize)]
 pub struct ProblemBody<'a> {
-    /// The program.
-    pub tool: &'static str,
-    /// Its version.
-    pub version: &'static str,
+    /// What is raised.
+    pub aim: &'static str,
     /// Name of the design.
     pub design: &'a str,
     /// SHA-256 of its file.
     pub design_hash: &'a str,
-    /// What is raised.
-    pub aim: &'static str,
-    /// The variables, in the order of a vector.
-    pub variables: Vec<VariableBody<'a>>,
-    /// Names of the objectives; null: there is no clutch at the start.
-    pub objectives: Option<Vec<String>>,
     /// Names of the limits.
     pub limits: Option<Vec<String>>,
+    /// Names of the objectives; null: there is no clutch at the start.
+    pub objectives: Option<Vec<String>>,
+    /// The program.
+    pub tool: &'static str,
+    /// The variables, in the order of a vector.
+    pub variables: Vec<VariableBody<'a>>,
+    /// Its version.
+    pub version: &'static str,
 }
 
 /// The answer to line number `at`, and whether it was no vector.

@@ -3,7 +3,7 @@
 use super::{Hints, SearchAnswer, SearchBody, Story};
 use crate::answer::check::{Capacity, margin_words};
 use crate::answer::page::{begun, draw, draw_sheet, drawing, pose_at_rest};
-use crate::answer::{Answer, Envelope, Finding, Provenance};
+use crate::answer::{Answer, ByAlphabet, Envelope, Finding, Provenance};
 use crate::design::Design;
 use crate::file::shown;
 use crate::margin::{Capacities, static_margins};
@@ -99,7 +99,7 @@ impl SearchReport<'_> {
 
 impl Answer for SearchReport<'_> {
     type Body<'a>
-        = SearchReportBody<'a>
+        = ByAlphabet<SearchReportBody<'a>>
     where
         Self: 'a;
 
@@ -158,19 +158,19 @@ impl Answer for SearchReport<'_> {
     }
 
     /// That of the library, and the files.
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, SearchReportBody<'_>> {
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, ByAlphabet<SearchReportBody<'_>>> {
         let found = &self.answer.body;
         Envelope {
             design: self.design,
             run_time_s,
             left_out: self.answer.left_out.clone(),
             error_estimate: Some(json!(found.objective_error)),
-            body: SearchReportBody {
+            body: ByAlphabet(SearchReportBody {
                 found,
                 written_to: self.written.as_deref(),
                 written_beside: &self.beside,
                 journal: self.journal.as_deref(),
-            },
+            }),
         }
     }
 

@@ -9,53 +9,53 @@ use serde::Serialize;
 /// What follows the end of the first sprag.
 #[derive(Debug, Clone, Serialize)]
 pub struct BeyondEndBody<'a> {
+    /// The torque as the races are turned on.
+    pub course: Rows<&'a PopPoint>,
+    /// What those carry that remain under the torque of the end, N m; null: nothing remains.
+    pub left_torque_nm: Option<f64>,
+    /// Sprags beyond their end there.
+    pub peak_over: usize,
     /// Largest torque as the races are turned on, N m.
     pub peak_torque_nm: f64,
     /// Windup there, deg.
     pub peak_windup_deg: f64,
-    /// Sprags beyond their end there.
-    pub peak_over: usize,
-    /// What those carry that remain under the torque of the end, N m; null: nothing remains.
-    pub left_torque_nm: Option<f64>,
     /// Sprags that go over under the torque of the end, one after another.
     pub popped: Rows<&'a Loss>,
-    /// The torque as the races are turned on.
-    pub course: Rows<&'a PopPoint>,
 }
 
 /// Keys of `sharing`.
 #[derive(Debug, Clone, Serialize)]
 pub struct SharingBody<'a> {
-    /// Whether every sprag that carries is within its limits, over the turn.
-    pub held: bool,
-    /// The answer in a sentence.
-    pub verdict: String,
-    /// Torque, N m.
-    pub torque_nm: f64,
-    /// Seed of what sets the sprags apart by chance.
-    pub seed: Option<u64>,
     /// Hertz pressure allowed at the torque, MPa.
     pub allowed_mpa: Option<f64>,
-    /// How many sprags, the most pressed first, may be lost until a limit is passed; null: not known.
-    pub may_be_lost: Option<usize>,
-    /// Torque that is carried at every place, N m, where that is less than the one asked for.
-    pub end_torque_nm: Option<f64>,
-    /// What ends it there.
-    pub end_reason: Option<String>,
-    /// Every sprag at the worst place, a row of [`SharingAnswer::by_sprag`].
-    pub sprags: Rows<(usize, &'a OneRow)>,
-    /// Every place of a turn: forces, pressures, shares.
-    pub turn: Rows<(&'a Shared, &'a f64, (usize, f64))>,
     /// What follows the end; null where nothing ends it.
     pub beyond: Option<BeyondEndBody<'a>>,
+    /// What ends it there.
+    pub end_reason: Option<String>,
+    /// Torque that is carried at every place, N m, where that is less than the one asked for.
+    pub end_torque_nm: Option<f64>,
     /// As the torque rises, at the worst place.
     pub engagement: Rows<&'a (f64, Result<Shared, NotShared>)>,
-    /// One sprag lost after another, the most pressed first.
-    pub losses: Rows<(usize, &'a Loss)>,
     /// Mean growth of the inner track and amplitudes of its radius in each harmonic from the second on, um.
     pub harmonics_inner_um: Vec<f64>,
     /// The same of the outer track.
     pub harmonics_outer_um: Vec<f64>,
+    /// Whether every sprag that carries is within its limits, over the turn.
+    pub held: bool,
+    /// One sprag lost after another, the most pressed first.
+    pub losses: Rows<(usize, &'a Loss)>,
+    /// How many sprags, the most pressed first, may be lost until a limit is passed; null: not known.
+    pub may_be_lost: Option<usize>,
+    /// Seed of what sets the sprags apart by chance.
+    pub seed: Option<u64>,
+    /// Every sprag at the worst place, a row of [`SharingAnswer::by_sprag`].
+    pub sprags: Rows<(usize, &'a OneRow)>,
+    /// Torque, N m.
+    pub torque_nm: f64,
+    /// Every place of a turn: forces, pressures, shares.
+    pub turn: Rows<(&'a Shared, &'a f64, (usize, f64))>,
+    /// The answer in a sentence.
+    pub verdict: String,
 }
 
 impl<'a> BeyondEndBody<'a> {

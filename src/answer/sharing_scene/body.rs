@@ -13,84 +13,84 @@ pub type SpragRow<'a> = (usize, &'a OneSprag, Option<&'a SpragCourse>);
 /// Keys of `sharing` in a scene.
 #[derive(Debug, Clone, Serialize)]
 pub struct SharingSceneBody<'a> {
-    /// Whether the scene came to its end and no sprag slipped or went over.
-    pub held: bool,
-    /// The answer in a sentence.
-    pub verdict: String,
-    /// Name of the scene.
-    pub scenario: &'a str,
-    /// Why the run ended.
-    pub stop: &'static str,
-    /// Time reached, s.
-    pub end_s: f64,
-    /// Largest share of the load, over the mean of all places.
-    pub largest_share: Option<f64>,
-    /// The sprag that has it, from 1.
-    pub largest_share_sprag: Option<usize>,
-    /// When, s.
-    pub largest_share_at_s: Option<f64>,
-    /// Seed of what sets the sprags apart by chance.
-    pub seed: Option<u64>,
-    /// Why the run did not come to its end, and what would let it.
-    pub given_up: Option<String>,
-    /// Largest force that the bearings hold, N; null: the axes are one.
-    pub bearing_max_n: Option<f64>,
-    /// When, s.
-    pub bearing_max_at_s: Option<f64>,
     /// How far the axes were apart at most, um.
     pub axes_apart_max_um: Option<f64>,
-    /// Mass that swings on the bearings, kg; null: they do not give.
-    pub bearing_mass_kg: Option<f64>,
     /// Its frequency on them, Hz.
     pub bearing_frequency_hz: Option<f64>,
-    /// Sprags that went beyond the end of their curve.
-    pub over: usize,
-    /// Those of them that lost contact for good.
-    pub gone: usize,
+    /// Mass that swings on the bearings, kg; null: they do not give.
+    pub bearing_mass_kg: Option<f64>,
+    /// When, s.
+    pub bearing_max_at_s: Option<f64>,
+    /// Largest force that the bearings hold, N; null: the axes are one.
+    pub bearing_max_n: Option<f64>,
+    /// What the inertia of the races that bend would change, of what they bend.
+    pub bending_left_out: Option<f64>,
     /// Sprags from 1 in the order in which they catch.
     pub catching: Vec<usize>,
-    /// How many slip under load after they have caught.
-    pub slipping: usize,
-    /// The first of them, from 1.
-    pub first_slip_sprag: Option<usize>,
-    /// When, s.
-    pub first_slip_at_s: Option<f64>,
-    /// Rotation of the inner race at the end, rad.
-    pub theta_inner_rad: f64,
-    /// Rotation of the outer race at the end, rad.
-    pub theta_outer_rad: f64,
-    /// By how much that of the inner race differs between two runs, rad.
-    pub theta_inner_error_rad: Option<f64>,
-    /// By how much the largest normal force does, of itself.
-    pub normal_max_error: Option<f64>,
+    /// Time reached, s.
+    pub end_s: f64,
     /// What the balance of energy leaves, J.
     pub energy_residual_j: f64,
     /// Energy that went through, J.
     pub energy_through_j: f64,
-    /// Kinds of sprags that were computed.
-    pub kinds: usize,
     /// Changes of mode.
     pub events: u64,
-    /// Steps of the integrator.
-    pub steps: u64,
-    /// Evaluations of the equations of motion.
-    pub rhs_evaluations: u64,
+    /// When, s.
+    pub first_slip_at_s: Option<f64>,
+    /// The first of them, from 1.
+    pub first_slip_sprag: Option<usize>,
+    /// Why the run did not come to its end, and what would let it.
+    pub given_up: Option<String>,
+    /// Those of them that lost contact for good.
+    pub gone: usize,
+    /// Whether the scene came to its end and no sprag slipped or went over.
+    pub held: bool,
+    /// Every sample.
+    pub history: Rows<&'a ManySample>,
+    /// Kinds of sprags that were computed.
+    pub kinds: usize,
+    /// Largest share of the load, over the mean of all places.
+    pub largest_share: Option<f64>,
+    /// When, s.
+    pub largest_share_at_s: Option<f64>,
+    /// The sprag that has it, from 1.
+    pub largest_share_sprag: Option<usize>,
     /// Lowest frequency of the inner race as a ring, Hz; null: the races do not bend.
     pub lowest_mode_inner_hz: Option<f64>,
     /// The same of the outer race.
     pub lowest_mode_outer_hz: Option<f64>,
+    /// By how much the largest normal force does, of itself.
+    pub normal_max_error: Option<f64>,
+    /// Sprags that went beyond the end of their curve.
+    pub over: usize,
+    /// Evaluations of the equations of motion.
+    pub rhs_evaluations: u64,
+    /// Name of the scene.
+    pub scenario: &'a str,
+    /// Frequency at which the scene drives the races, Hz.
+    pub scene_hz: Option<f64>,
+    /// Seed of what sets the sprags apart by chance.
+    pub seed: Option<u64>,
     /// Largest share at rest under the largest torque with races that bend.
     pub share_at_rest: Option<f64>,
     /// The same with races that stay round.
     pub share_at_rest_round: Option<f64>,
-    /// Frequency at which the scene drives the races, Hz.
-    pub scene_hz: Option<f64>,
-    /// What the inertia of the races that bend would change, of what they bend.
-    pub bending_left_out: Option<f64>,
+    /// How many slip under load after they have caught.
+    pub slipping: usize,
     /// Every sprag.
     pub sprags: Rows<SpragRow<'a>>,
-    /// Every sample.
-    pub history: Rows<&'a ManySample>,
+    /// Steps of the integrator.
+    pub steps: u64,
+    /// Why the run ended.
+    pub stop: &'static str,
+    /// By how much that of the inner race differs between two runs, rad.
+    pub theta_inner_error_rad: Option<f64>,
+    /// Rotation of the inner race at the end, rad.
+    pub theta_inner_rad: f64,
+    /// Rotation of the outer race at the end, rad.
+    pub theta_outer_rad: f64,
+    /// The answer in a sentence.
+    pub verdict: String,
 }
 
 impl<'a> SharingSceneBody<'a> {

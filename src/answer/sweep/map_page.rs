@@ -25,32 +25,32 @@ pub struct MapRange {
 /// Keys of `map`.
 #[derive(Debug, Clone, Serialize)]
 pub struct MapBody<'a> {
-    /// The program.
-    pub tool: &'static str,
-    /// Its version.
-    pub version: &'static str,
+    /// The best point.
+    pub best: Option<&'a MapPoint>,
+    /// The column that is mapped.
+    pub by: &'a str,
+    /// Which limit decides at how many points.
+    pub deciding: Rows<&'a (String, u64)>,
     /// Name of the design; null: the table does not say.
     pub design: Option<&'a str>,
     /// SHA-256 of its file.
     pub design_hash: Option<&'a str>,
-    /// Which points were taken.
-    pub sampling: Option<&'a str>,
-    /// The column that is mapped.
-    pub by: &'a str,
-    /// The answer in a sentence.
-    pub verdict: String,
-    /// Points.
-    pub points: u64,
-    /// Points without a clutch.
-    pub without_clutch: u64,
     /// Points that hold every limit.
     pub held: u64,
+    /// Points.
+    pub points: u64,
+    /// Which points were taken.
+    pub sampling: Option<&'a str>,
+    /// The program.
+    pub tool: &'static str,
     /// Each variable: its range, that of the points that are held, its value at the best point.
     pub variables: Rows<(usize, &'a MapVariable)>,
-    /// Which limit decides at how many points.
-    pub deciding: Rows<&'a (String, u64)>,
-    /// The best point.
-    pub best: Option<&'a MapPoint>,
+    /// The answer in a sentence.
+    pub verdict: String,
+    /// Its version.
+    pub version: &'static str,
+    /// Points without a clutch.
+    pub without_clutch: u64,
 }
 
 impl SweepMap {
