@@ -1,13 +1,14 @@
 //! One handle by which a computation is followed and stopped from outside, also from another thread.
 //!
-//! In: a wish to stop. Out: [`Follow`], given to whatever computes; [`RunProgress`], how far a simulation is.
+//! In: a wish to stop, a closure that is told. Out: [`Follow`], given to whatever computes; [`News`], what that tells;
+//! [`RunProgress`], how far a simulation is.
 //! Absent: what is computed, signals, printing. Equations: none.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Whether to stop, and where a simulation tells how far it is. Clones share both and are cheap. The default never stops
-/// and tells nobody.
+/// Whether to stop, who is told what begins and what is done, and where a simulation tells how far it is. Clones share all of it and
+/// are cheap. The default never stops and tells nobody.
 ///
 /// ```
 /// use sprag_design::{Design, Follow, Settings, Stop, simulate};
@@ -20,12 +21,29 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 /// follow.stop();
 /// let answer = simulate(scene, &settings)?;
 /// assert_eq!((answer.stop, answer.verdict), (Stop::Interrupted, None));
+///
+/// use std::sync::{Arc, atomic::{AtomicUsize, Ordering}};
+/// let scenes = Arc::new(AtomicUsize::new(0));
+/// let count = scenes.clone();
+/// let follow = Follow::nobody().telling(move |_| { count.fetch_add(1, Ordering::Relaxed); });
+/// design.check(&follow)?;
+/// assert_eq!(scenes.load(Ordering::Relaxed), design.scenarios.len());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, Default)]
+#[derive(Clone, Default)]
 pub struct Follow {
     stop: Option<Arc<AtomicBool>>,
     clock: Option<Arc<Clock>>,
+    told: Option<Arc<dyn Fn(News<'_>) + Send + Sync>>,
+}
+
+/// What a computation of many parts tells, from any of its threads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum News<'a> {
+    /// A stretch of work of this name begins.
+    Begins(&'a str),
+    /// One more is done of what it is made of: scenes, states, points, evaluations.
+    Done,
 }
 
 /// How far a simulation is, as a [`Follow`] shows it.
@@ -55,17 +73,22 @@ struct Clock {
 impl Follow {
     /// One that can be stopped and shows how far one simulation at a time is.
     pub fn new() -> Self {
-        Self { stop: Some(Arc::default()), clock: Some(Arc::default()) }
+        Self { stop: Some(Arc::default()), clock: Some(Arc::default()), told: None }
     }
 
     /// Never stops, tells nobody: the default, for constants.
     pub const fn nobody() -> Self {
-        Self { stop: None, clock: None }
+        Self { stop: None, clock: None, told: None }
     }
 
     /// Stops with this one, but tells nobody: for simulations that run side by side.
     pub fn unseen(&self) -> Self {
-        Self { stop: self.stop.clone(), clock: None }
+        Self { stop: self.stop.clone(), ..Self::nobody() }
+    }
+
+    /// The same, with `told` who hears what begins and what is done.
+    pub fn telling(&self, told: impl Fn(News<'_>) + Send + Sync + 'static) -> Self {
+        Self { told: Some(Arc::new(told)), ..self.clone() }
     }
 
     /// Ask what computes to stop at its next safe point; whether that was asked before. One that never stops stays so.
@@ -91,6 +114,13 @@ impl Follow {
         (progress.pass > 0).then_some(progress)
     }
 
+    /// Tell.
+    pub(crate) fn news(&self, news: News<'_>) {
+        if let Some(told) = &self.told {
+            told(news);
+        }
+    }
+
     /// A pass at `tolerance` begins; the `first` of a simulation or one more.
     pub(crate) fn begin_pass(&self, first: bool, tolerance: f64) {
         let Some(clock) = &self.clock else { return };
@@ -113,5 +143,11 @@ impl Follow {
         if let Some(clock) = &self.clock {
             clock.t_s.store(t_s.to_bits(), Ordering::Relaxed);
         }
+    }
+}
+
+impl std::fmt::Debug for Follow {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Follow").field("stopped", &self.stopped()).finish_non_exhaustive()
     }
 }

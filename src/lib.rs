@@ -104,6 +104,9 @@
 #![cfg_attr(feature = "report", doc = include_str!("../examples/first_steps.rs"))]
 //! ```
 
+#[macro_use]
+mod named;
+
 #[cfg(feature = "validation")]
 pub mod accuracy;
 #[cfg(feature = "report")]
@@ -151,7 +154,7 @@ pub use clutch::{Clutch, ContactLaw, Scenario, ScenarioKind};
 pub use design::{Design, Limits};
 pub use dynamics::Stop;
 pub use file::DesignError;
-pub use follow::Follow;
+pub use follow::{Follow, News};
 pub use margin::{Margin, NoMargins, margins};
 pub use material::Material;
 pub use optimise::{NoSearch, Search, search};

@@ -495,7 +495,7 @@ fn a_drawing_seen_from_below_is_mirrored_and_a_unit_can_be_said() {
     let bare = polyline(&inches).replace("$INSUNITS\n 70\n4", "$INSUNITS\n 70\n0");
     let said = read_dxf(&bare, None, None).unwrap().remarks;
     assert!(
-        said.iter().any(|s| s.contains("taken for millimetres") && s.contains("--unit inch")),
+        said.iter().any(|s| s.contains("taken for millimetres") && s.contains("`unit` inch")),
         "{said:?}"
     );
     let got = sprag(&read_dxf(&bare, None, Some(DrawnUnit::Inch)).unwrap(), &wanted(&design)).unwrap();

@@ -226,14 +226,14 @@ fn the_laws_own_error_is_in_the_interval_and_the_proposed_measurement_tells_the_
     assert!(off(&alone).abs() > modulus.half_width.unwrap(), "scatter alone misses it: {modulus:?}");
     assert!(off(&alone).abs() < modulus.by_law.unwrap() && modulus.doubt.is_some(), "{modulus:?}");
     let apart = alone.apart.unwrap();
-    assert!(matches!(apart.quantity.column(), "normal_inner_n" | "normal_outer_n"), "{apart:?}");
+    assert!(matches!(apart.quantity.name(), "normal_inner_n" | "normal_outer_n"), "{apart:?}");
 
     let curve = WedgeCurve::build(&design.clutch, &design.clutch.profile().unwrap(), 0.0).unwrap();
-    let mut csv = windups.replacen("windup_deg", &format!("windup_deg,{}", apart.quantity.column()), 1);
+    let mut csv = windups.replacen("windup_deg", &format!("windup_deg,{}", apart.quantity.name()), 1);
     for line in windups.lines().skip(1) {
         let torque: f64 = line.split(',').next().unwrap().parse().unwrap();
         let point = curve.at_torque(torque).unwrap();
-        let inner = apart.quantity.column() == "normal_inner_n";
+        let inner = apart.quantity.name() == "normal_inner_n";
         let normal = if inner { point.normal_inner_n } else { point.normal_outer_n };
         csv = csv.replacen(line, &format!("{line},{normal}"), 1);
     }

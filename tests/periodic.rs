@@ -253,9 +253,7 @@ fn a_map_is_the_same_on_one_thread_and_on_two() {
     let map = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let settings = Settings::default();
-        pool.install(|| resonance(&low, &frequencies, &[2.0, 12.0, 20.0], &settings, &|| ()))
-            .unwrap()
-            .unwrap()
+        pool.install(|| resonance(&low, &frequencies, &[2.0, 12.0, 20.0], &settings)).unwrap().unwrap()
     };
     let (one, two) = (map(1), map(2));
     let figures = |map: &[Vec<ResonanceCell>]| -> Vec<String> {
@@ -282,19 +280,19 @@ fn a_map_is_the_same_on_one_thread_and_on_two() {
     // Nothing is computed after a stop, and nothing is made up.
     let follow = sprag_design::Follow::new();
     follow.stop();
-    let stopped = resonance(&low, &frequencies, &[2.0], &Settings { follow, ..Settings::default() }, &|| ());
+    let stopped = resonance(&low, &frequencies, &[2.0], &Settings { follow, ..Settings::default() });
     assert!(stopped.unwrap().is_none());
     // Amplitudes that were walked both ways until then are an answer, the same as without the stop.
     let follow = sprag_design::Follow::new();
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let count = || {
-        if done.fetch_add(1, std::sync::atomic::Ordering::SeqCst) + 1 == 2 * frequencies.len() {
-            follow.stop();
+    let (done, last, stop) = (std::sync::atomic::AtomicUsize::new(0), 2 * frequencies.len(), follow.clone());
+    let follow = follow.telling(move |_| {
+        if done.fetch_add(1, std::sync::atomic::Ordering::SeqCst) + 1 == last {
+            stop.stop();
         }
-    };
-    let settings = Settings { follow: follow.clone(), ..Settings::default() };
+    });
+    let settings = Settings { follow, ..Settings::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let part = pool.install(|| resonance(&low, &frequencies, &[2.0, 12.0, 20.0], &settings, &count));
+    let part = pool.install(|| resonance(&low, &frequencies, &[2.0, 12.0, 20.0], &settings));
     assert_eq!(figures(&part.unwrap().unwrap()), figures(&one[..1]));
 }
 

@@ -50,7 +50,7 @@ fn the_map_is_the_same_for_any_number_of_threads() {
     let (clutch, some) = (clutch(), cases(SEED, 24));
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let all = pool.install(|| map(&clutch, &some, &LIMIT, &|| ()));
+        let all = pool.install(|| map(&clutch, &some, &LIMIT));
         format!("{all:?}")
     };
     assert_eq!(with(1), with(4));

@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::json as object;
 use sprag_design::Follow;
-use sprag_design::answer::sweep::{NoMap, SweepMap};
+use sprag_design::answer::sweep::{NoTable, SweepMap};
 use std::fs::File;
 use std::path::PathBuf;
 
@@ -49,7 +49,7 @@ fn mapped(
     stop: &Follow,
 ) -> Result<SweepMap, String> {
     let mut map = SweepMap::of(by);
-    let each = |read: &mut dyn FnMut(File) -> Result<(), NoMap>| {
+    let each = |read: &mut dyn FnMut(File) -> Result<(), NoTable>| {
         tables.iter().try_for_each(|path| {
             let name = path.display();
             if stop.stopped() {

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::cases::Case;
 use crate::clutch::Clutch;
 use crate::dynamics::Stop;
-use crate::fidelity;
-use crate::follow::Follow;
+use crate::fidelity::{self, Terms};
+use crate::follow::{Follow, News};
 use crate::scenario::{FIGURES, NoScenario, Settings, Simulation, Verdict};
 
 /// What one case may cost.
@@ -139,14 +139,14 @@ impl Judged {
 }
 
 /// All `cases` on `clutch`, in parallel; the results are in their order, the same for any number of threads.
-/// `done` is called after each. Once interrupted, those that were finished.
-pub fn map(clutch: &Clutch, cases: &[Case], limit: &WorkLimit, done: &(dyn Fn() + Sync)) -> Vec<Judged> {
+/// [`WorkLimit::follow`] is told of each. Once interrupted, those that were finished.
+pub fn map(clutch: &Clutch, cases: &[Case], limit: &WorkLimit) -> Vec<Judged> {
     let one = |case: &Case| {
         if limit.follow.stopped() {
             return None;
         }
         let judged = judge(clutch, case, limit);
-        done();
+        limit.follow.news(News::Done);
         (!judged.outcomes.contains(&CaseEnd::Stopped(Stop::Interrupted))).then_some(judged)
     };
     cases.par_iter().with_max_len(1).filter_map(one).collect()
@@ -163,7 +163,7 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
             follow: limit.follow.unseen(),
             ..Settings::default()
         };
-        fidelity::simulate(&scenario, &settings, false).map(|p| p.simulation)
+        fidelity::simulate(&scenario, &settings, Terms::Felt).map(|p| p.simulation)
     };
     let answers = [go(limit.tolerance), go(0.5 * limit.tolerance)];
     let outcomes = [outcome(&answers[0]), outcome(&answers[1])];

@@ -5,8 +5,10 @@ use std::time::Instant;
 use crate::clutch::Scenario;
 use crate::dynamics::{PublishedSettings, Run, RunSettings, Stop, published, run};
 use crate::fidelity::{self, Plan};
-use crate::follow::Follow;
-use crate::scenario::{NoScenario, Prepared, Settings, Simulation, demand, prepare, simulate_prepared};
+use crate::follow::{Follow, News};
+use crate::scenario::{
+    NoScenario, Prepared, Settings, Simulation, Terms, demand, prepare, simulate_prepared,
+};
 
 /// What is compared.
 #[derive(Debug, Clone)]
@@ -131,15 +133,11 @@ const STEPS: f64 = 4.0;
 /// Enough for any scene of a design; a run that needs more is left out.
 const MOST: u64 = 5_000_000;
 
-/// Compare the methods on `scenario`; `None` where interrupted. `done` is called after each setting.
+/// Compare the methods on `scenario`; `None` where interrupted. [`PrecisionSettings::follow`] is told of each setting.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start.
-pub fn precision(
-    scenario: &Scenario,
-    settings: &PrecisionSettings,
-    done: &dyn Fn(),
-) -> Result<Option<Precision>, NoScenario> {
+pub fn precision(scenario: &Scenario, settings: &PrecisionSettings) -> Result<Option<Precision>, NoScenario> {
     let full = prepare(scenario)?;
     let (plan, reduced) = fidelity::plan(scenario, None)?;
     let (_, whole_s) = timed(settings, || drop(prepare(scenario)));
@@ -158,7 +156,7 @@ pub fn precision(
                 return Ok(None);
             }
             points.push(bench.point(method, setting, reference));
-            done();
+            settings.follow.news(News::Done);
         }
         methods.push((method, points));
     }
@@ -166,7 +164,7 @@ pub fn precision(
         return Ok(None);
     }
     let Plan { left_out, .. } = plan;
-    let rolls = bench.answer(&bench.reduced, 1e-6, true).rolled;
+    let rolls = bench.answer(&bench.reduced, 1e-6, Terms::Felt).rolled;
     let law = rolls.then_some("friction law in slip");
     Ok(Some(Precision {
         scene: scenario.name.clone(),
@@ -225,9 +223,9 @@ impl Bench<'_> {
         (self.run(tolerance, per_period), demand(&self.full, &s).slip_margin)
     }
 
-    fn answer(&self, prepared: &Prepared, tolerance: f64, reduced: bool) -> Simulation {
+    fn answer(&self, prepared: &Prepared, tolerance: f64, terms: Terms) -> Simulation {
         let s = Settings { tolerance, follow: self.settings.follow.unseen(), ..Settings::default() };
-        simulate_prepared(prepared, &s, reduced)
+        simulate_prepared(prepared, &s, terms)
     }
 
     fn point(&self, method: Scheme, setting: f64, reference: (f64, Option<f64>)) -> WorkPoint {
@@ -258,8 +256,8 @@ impl Bench<'_> {
                 let (run, seconds) = timed(again, || self.run(setting, STEPS));
                 bare(&run, seconds)
             }
-            Scheme::Full => whole(timed(again, || self.answer(&self.full, setting, false))),
-            Scheme::Reduced => whole(timed(again, || self.answer(&self.reduced, setting, true))),
+            Scheme::Full => whole(timed(again, || self.answer(&self.full, setting, Terms::All))),
+            Scheme::Reduced => whole(timed(again, || self.answer(&self.reduced, setting, Terms::Felt))),
             Scheme::Published(band_m_s) => {
                 let p = &self.full;
                 let s = PublishedSettings { duration_s: p.duration_s, step_s: setting, band_m_s, samples: 0 };

@@ -1,7 +1,7 @@
 //! What a limit, a key, a variable or another name means.
 
 use crate::clutch::LAWS;
-use crate::design::{LIMIT_KEYS, Objective, nearest};
+use crate::design::{LIMIT_KEYS, Objective, did_you_mean};
 use crate::file::{
     SCENARIO_KINDS, VARIABLES, allowed, keys_of, paths_of, shape_of, unit_of_key, variable_path,
 };
@@ -222,7 +222,7 @@ fn of_arc(name: &str) -> Option<String> {
 pub fn unknown(name: &str) -> String {
     let groups = groups();
     let all: Vec<&str> = groups.iter().flat_map(|(_, names)| names.iter().map(String::as_str)).collect();
-    let near = nearest(name, &all).map_or(String::new(), |near| format!("; did you mean {near}?"));
+    let near = did_you_mean(name, &all);
     format!("nothing is called {name:?}{near}; `explain` alone lists every name")
 }
 

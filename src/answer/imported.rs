@@ -14,6 +14,19 @@ use std::fmt::Write;
 /// A radius less well known than this is said to be so, m.
 const UNSURE_M: f64 = 2e-6;
 
+/// What [`crate::import`] says, with the options of the command where it names what the caller sets.
+pub fn in_options(text: &str) -> String {
+    const OPTIONS: [(&str, &str); 6] = [
+        ("(`tracks_m`)", "(--template, --inner-radius, --outer-radius)"),
+        ("`tracks_m`", "--template, or --inner-radius and --outer-radius"),
+        ("`layer`", "--layer"),
+        ("`unit`", "--unit"),
+        ("`swap`", "--swap"),
+        ("`export`", "`export --format csv`"),
+    ];
+    OPTIONS.iter().fold(text.to_owned(), |text, (set, option)| text.replace(set, option))
+}
+
 /// A sprag found in a drawing or in points, on a template.
 #[derive(Debug, Clone, Copy)]
 pub struct Imported<'a> {
@@ -172,7 +185,7 @@ impl Imported<'_> {
     /// What the reader of the numbers should know, a line each.
     pub fn remarks(&self) -> Vec<String> {
         let found = self.found;
-        let mut lines = self.drawn.remarks.clone();
+        let mut lines = self.drawn.remarks.iter().map(|remark| in_options(remark)).collect::<Vec<_>>();
         if self.no_template {
             lines.push(format!(
                 "no --template: races, count, spring, friction and limits are those of {}",

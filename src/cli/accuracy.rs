@@ -65,7 +65,7 @@ fn chosen<'a>(args: &AccuracyArgs, design: &'a Design) -> Result<Vec<&'a Scenari
     let mut found: Vec<&Scenario> = Vec::new();
     for name in &args.scenario {
         let scenario = design.which_scenario(Some(name), |_| true);
-        let scenario = scenario.map_err(|why| Failure::of(&args.file, why))?;
+        let scenario = scenario.map_err(|why| Failure::which(&args.file, why))?;
         if !is_torsional(scenario) {
             return Err(Failure::malformed(format!(
                 "--scenario {name}: not of the kind torsional-excitation, which alone all methods can run"
@@ -85,13 +85,12 @@ fn study<'d>(
     design: &'d Design,
     scenarios: &[&Scenario],
 ) -> AccuracyStudy<'d> {
-    let settings = PrecisionSettings::down_to(args.min_step, &context.follow);
+    let mut settings = PrecisionSettings::down_to(args.min_step, &context.follow);
     let points = (scenarios.len() * settings.points()) as u64;
     let progress = context.progress("methods", "settings", Some(points));
-    let study = AccuracyStudy::of(design, scenarios, &settings, &|name| progress.describe(name), &|| {
-        progress.advance(1)
-    });
+    settings.follow = progress.told_by(&settings.follow);
+    let study = AccuracyStudy::of(design, scenarios, &settings);
     drop(progress);
     let progress = context.progress("stability map", "cases", Some(u64::from(args.cases)));
-    study.with_map(args.seed, args.cases as usize, &context.follow, &|| progress.advance(1))
+    study.with_map(args.seed, args.cases as usize, &progress.told_by(&context.follow))
 }

@@ -4,7 +4,7 @@ use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::{Context, Run};
-use crate::answer::check::{CheckAnswer, NoCheck, check};
+use crate::answer::check::{CheckAnswer, NoCheck};
 use crate::design::Design;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ pub(super) fn checked(
     context: &Context,
 ) -> Result<(CheckAnswer, f64), Failure> {
     let progress = context.progress("margins", "scenarios", Some(design.scenarios.len() as u64));
-    let (found, run_time_s) = timed(|| check(design, &context.follow, &|| progress.advance(1)));
+    let (found, run_time_s) = timed(|| design.check(&progress.told_by(&context.follow)));
     let found = found.map_err(|why| match why {
         NoCheck::NoClutch(why) => Failure::no_clutch(file, &why),
         NoCheck::Stopped => Failure::Interrupted,

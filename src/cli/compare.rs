@@ -33,7 +33,7 @@ impl Run for CompareArgs {
         context.reads(&self.files)?;
         let designs = self.files.iter().map(|file| context.design(file)).collect::<Result<Vec<_>, _>>()?;
         let progress = context.progress("margins", "designs", Some(designs.len() as u64));
-        let (found, run_time_s) = timed(|| subjects(designs, &context.follow, &|| progress.advance(1)));
+        let (found, run_time_s) = timed(|| subjects(designs, &progress.told_by(&context.follow)));
         let subjects = found.map_err(|why| match why {
             NoComparison::NoClutch(i, why) => Failure::no_clutch(&self.files[i], &why),
             NoComparison::Stopped => Failure::Interrupted,

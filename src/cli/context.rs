@@ -14,6 +14,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Options of every command.
@@ -120,8 +121,8 @@ impl Context {
     }
 
     /// A progress line on standard error; `unit` names the steps, `total` counts them if known.
-    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> ProgressLine {
-        ProgressLine::new(!self.quiet, what, unit, total)
+    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> Arc<ProgressLine> {
+        Arc::new(ProgressLine::new(!self.quiet, what, unit, total))
     }
 
     /// How an answer came about that took `run_time_s`, s.

@@ -1,6 +1,7 @@
 //! Exit codes, promised to scripts.
 
 use crate::answer::Finding;
+use crate::design::WhichScenario;
 use crate::file::{DesignError, shown};
 use crate::margin::NoMargins;
 use serde_json::{Value, json};
@@ -96,6 +97,16 @@ impl Failure {
     /// As [`Self::malformed`], of a file.
     pub fn of(file: &Path, why: impl Display) -> Self {
         Self::malformed(format!("{}: {why}", file.display()))
+    }
+
+    /// It is not known which scenario is meant.
+    pub fn which(file: &Path, why: WhichScenario) -> Self {
+        match why {
+            WhichScenario::Several { known } => {
+                Self::of(file, format!("needed: --scenario NAME; the design has: {}", known.join(", ")))
+            }
+            why => Self::of(file, why),
+        }
     }
 
     /// The refusal of a clutch that has no curve: file, reason, and the keys that decide it.

@@ -3,10 +3,10 @@
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::{Context, Run, positive};
-use crate::answer::imported::{Imported, design_text};
+use crate::answer::imported::{Imported, design_text, in_options};
 use crate::design::Design;
 use crate::file::{MOST_TABLE, foreign, read_text};
-use crate::import::{DrawnUnit, SpiralKind, Wanted, read_dxf, read_points, sprag};
+use crate::import::{DrawnUnit, NoImport, SpiralKind, Wanted, read_dxf, read_points, sprag};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -127,7 +127,8 @@ impl Run for ImportArgs {
         } else {
             read_points(&text, self.unit)
         };
-        let drawn = drawn.map_err(|e| named(e.to_string()))?;
+        let told = |why: NoImport| named(in_options(&why.to_string()));
+        let drawn = drawn.map_err(told)?;
         let made = template.as_made().map_err(refused)?.races;
         let [inner_m, outer_m] = radii_m;
         let wanted = Wanted {
@@ -136,7 +137,7 @@ impl Run for ImportArgs {
             deviation_m: self.deviation_um.map(|um| 1e-6 * um),
             swap: self.swap,
         };
-        let found = sprag(&drawn, &wanted).map_err(|e| named(e.to_string()))?;
+        let found = sprag(&drawn, &wanted).map_err(told)?;
         let spiral = match self.spiral {
             None => None,
             Some(kind) => Some(*found.spirals.iter().find(|s| s.kind == kind).ok_or_else(|| {

@@ -36,9 +36,10 @@ pub fn answer(
         Ok(sized) => sized,
         Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| (Exit::Failed, None)),
         Err(ref why @ NoSize::None { tried: ref list }) => {
+            let why = why.to_string().replace("`width`", "--width").replace("`outside`", "--outside");
             let rows = tried(list, None);
             let table = rows.clone().table();
-            context.object(|| json!({ "sized": false, "why": why.to_string(), "tried": rows.objects() }))?;
+            context.object(|| json!({ "sized": false, "why": why, "tried": rows.objects() }))?;
             context.outputs.write_csv(&table);
             context.answer(&format!("{}\n{why}\n", table.to_text(context.screen)))?;
             return Ok((Exit::NotHeld, None));

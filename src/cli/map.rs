@@ -3,7 +3,7 @@
 use super::exit::{Exit, Failure};
 use super::sweep::opened_again;
 use super::{Context, Run, Without, output};
-use crate::answer::sweep::{NoMap, SweepMap};
+use crate::answer::sweep::{NoTable, SweepMap};
 use crate::follow::Follow;
 use clap::Args;
 use std::fs::File;
@@ -63,7 +63,7 @@ impl Run for MapArgs {
         context.outputs.refuse_foreign()?;
         let started = Instant::now();
         let mut map = SweepMap::of(&self.by);
-        let each = |read: &mut dyn FnMut(Heard<'_>) -> Result<(), NoMap>| {
+        let each = |read: &mut dyn FnMut(Heard<'_>) -> Result<(), NoTable>| {
             self.tables.iter().try_for_each(|path| {
                 if context.follow.stopped() {
                     return Err(Failure::Interrupted);

@@ -184,9 +184,11 @@ impl Run for NewArgs {
         }
         if exit == Exit::Held && context.outputs.unwritten().is_empty() {
             let path = output::path_text(&output);
-            let further = wish.purpose.map_or(&[][..], |p| p.ask).iter().copied();
-            let asked = wish.engagements.map(|_| "life {}");
-            let next = ["studio {}", "check {}", "optimize {} -o better.toml", "sheet {}"].into_iter();
+            let further = wish.purpose.map_or(&[][..], |p| p.ask).iter().map(|ask| command(ask));
+            let asked = wish.engagements.map(|_| "life {}".to_owned());
+            let next = ["studio {}", "check {}", "optimize {} -o better.toml", "sheet {}"]
+                .map(str::to_owned)
+                .into_iter();
             let lines = next
                 .chain(further)
                 .chain(asked)
@@ -195,6 +197,16 @@ impl Run for NewArgs {
         }
         Ok(exit)
     }
+}
+
+/// A command of its own next question, {} for the file.
+fn command(ask: &str) -> String {
+    let options = match ask {
+        "simulate" => " --scenario engage",
+        "feed" => " --stroke DEGREES --brake NM --inertia KGM2 --frequency HZ",
+        _ => "",
+    };
+    format!("{ask} {{}}{options}")
 }
 
 /// Options without which there is no question, as typed.

@@ -12,6 +12,7 @@ use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record};
 use crate::sweep::NoSample;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -53,6 +54,7 @@ const HINTS: Hints = Hints {
     more_starts: "try more --starts",
     stopped: "stopped by Ctrl-C (the same command with --resume goes on)",
     further_variables: ", which `sprag-design explain variables` lists",
+    one_step_further: " (check one step further with --set)",
     reserve: "; --reserve 0.05 would keep 5 % of every limit to spare",
 };
 
@@ -126,7 +128,7 @@ impl Run for OptimizeArgs {
         let Some(task) = design.optimize.clone() else {
             return Err(Failure::of(&self.file, NoSample::NoTask));
         };
-        let settings = self.settings(context);
+        let mut settings = self.settings(context);
         settings.validate(&design).map_err(|why| at(why.to_string()))?;
         let beside = beside(&new, self);
         let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
@@ -163,7 +165,9 @@ impl Run for OptimizeArgs {
             if drawn { "" } else { " (this search draws nothing at random)" },
             if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
         ));
-        let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
+        let progress = context.progress("search", "evaluations", None);
+        settings.follow = progress.told_by(&settings.follow);
+        let mut keeper = Keeper { progress, file, best: Default::default() };
         let started = Instant::now();
         let answer = design.optimise_recorded(&settings, &mut keeper);
         let run_time_s = started.elapsed().as_secs_f64();
@@ -276,18 +280,12 @@ fn beside(new: &Path, args: &OptimizeArgs) -> Vec<PathBuf> {
     robust.into_iter().chain([NEAREST]).map(|ending| new.with_extension(format!("{ending}.toml"))).collect()
 }
 
-/// Progress and journal.
+/// Progress of climbs, and the journal.
 struct Keeper {
-    progress: ProgressLine,
+    progress: Arc<ProgressLine>,
     file: JournalFile,
-    part: String,
-    best: Option<f64>,
-}
-
-impl Keeper {
-    fn new(progress: ProgressLine, file: JournalFile) -> Self {
-        Self { progress, file, part: "search".to_owned(), best: None }
-    }
+    /// Best feasible margin of the part of this name.
+    best: (String, Option<f64>),
 }
 
 impl Record for Keeper {
@@ -297,25 +295,21 @@ impl Record for Keeper {
 
     fn evaluated(&mut self, problem: &ProblemId, entry: &Entry) {
         self.file.append(problem, entry);
-        self.progress.advance(1);
-    }
-
-    fn begins(&mut self, part: &str) {
-        self.part = part.to_owned();
-        self.best = None;
-        self.progress.describe(part);
     }
 
     fn iterated(&mut self, it: &Iteration) {
-        if it.violation <= 1e-8 {
-            self.best = Some(self.best.map_or(it.least_margin, |b| b.max(it.least_margin)));
+        let part = self.progress.part();
+        if part != self.best.0 {
+            self.best = (part.clone(), None);
         }
-        let best = self.best.map_or("none yet".to_owned(), |b| format!("{b:.5}"));
+        if it.violation <= 1e-8 {
+            self.best.1 = Some(self.best.1.map_or(it.least_margin, |b| b.max(it.least_margin)));
+        }
+        let best = self.best.1.map_or("none yet".to_owned(), |b| format!("{b:.5}"));
         let violated = match it.violated {
             0 => "every limit held".to_owned(),
             n => format!("{n} limits violated, the worst by {:.1e}", it.violation),
         };
-        self.progress
-            .describe(&format!("{}: {:.5}, {violated}, best feasible {best}", self.part, it.least_margin));
+        self.progress.describe(&format!("{part}: {:.5}, {violated}, best feasible {best}", it.least_margin));
     }
 }

@@ -1,8 +1,10 @@
 //! Progress on standard error, only for jobs that last.
 
+use crate::follow::{Follow, News};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Shorter jobs show nothing.
@@ -15,6 +17,8 @@ pub struct ProgressLine {
     start: Instant,
     wanted: bool,
     shown: AtomicBool,
+    /// The stretch of work that has begun.
+    part: Mutex<String>,
 }
 
 impl ProgressLine {
@@ -33,7 +37,26 @@ impl ProgressLine {
         }
         bar.set_message(what.to_owned());
         let wanted = wanted && std::io::stderr().is_terminal();
-        Self { bar, start: Instant::now(), wanted, shown: AtomicBool::new(false) }
+        let part = Mutex::new(what.to_owned());
+        Self { bar, start: Instant::now(), wanted, shown: AtomicBool::new(false), part }
+    }
+
+    /// `follow`, telling this line as long as there is one.
+    pub fn told_by(self: &Arc<Self>, follow: &Follow) -> Follow {
+        let line = Arc::downgrade(self);
+        follow.telling(move |news| match (line.upgrade(), news) {
+            (Some(line), News::Done) => line.advance(1),
+            (Some(line), News::Begins(part)) => {
+                line.describe(part);
+                *line.part.lock().unwrap_or_else(PoisonError::into_inner) = part.to_owned();
+            }
+            (None, _) => (),
+        })
+    }
+
+    /// The stretch of work that has begun.
+    pub fn part(&self) -> String {
+        self.part.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// `steps` more are done.

@@ -96,8 +96,6 @@ impl Run for ResonanceArgs {
             frequencies_hz: values("--frequency", self.frequency, frequencies)?,
             amplitudes_nm: values("--amplitude", self.amplitude, amplitudes)?,
         };
-        let settings =
-            Settings { tolerance: self.tolerance, follow: context.follow.unseen(), ..Settings::default() };
         context.each(&self.files, |file, design| {
             let scenario = design.which_scenario(self.scenario.as_deref(), |s| s.kind.frequency_hz().is_some());
             let scenario = scenario.map_err(|why| match why {
@@ -109,13 +107,14 @@ impl Run for ResonanceArgs {
                         example(example_torque_nm(design))
                     ),
                 ),
-                why => Failure::of(file, why),
+                why => Failure::which(file, why),
             })?;
             // Each is found on the way up and on the way down.
             let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
             let line = context.progress("resonance", "states", Some(total as u64));
-            let (found, run_time_s) =
-                timed(|| design.resonance(scenario, &question, &settings, &|| line.advance(1)));
+            let follow = line.told_by(&context.follow.unseen());
+            let settings = Settings { tolerance: self.tolerance, follow, ..Settings::default() };
+            let (found, run_time_s) = timed(|| design.resonance(scenario, &question, &settings));
             drop(line);
             let named = |why: &NoResonance| format!("{}: {}: {why}", path_text(file), scenario.name);
             let found = found.map_err(|why| match why {

@@ -92,7 +92,7 @@ impl Run for SimulateArgs {
         refuse_strangers(self)?;
         context.each(&self.files, |file, design| {
             let scenario = design.which_scenario(self.scenario.as_deref(), |_| true);
-            let scenario = scenario.map_err(|why| Failure::of(file, why))?;
+            let scenario = scenario.map_err(|why| Failure::which(file, why))?;
             settings.validate_for(scenario).map_err(|why| refusal(why, self.window))?;
             let duration_s = scenario.kind.duration_s();
             let run = || Ran::new(design, scenario, &settings);

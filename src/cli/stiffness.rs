@@ -82,19 +82,18 @@ impl Run for StiffnessArgs {
 fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<StiffnessStudy, Failure> {
     let design = context.design(&args.files[i])?;
     let fem = args.fem.get(i).map(|path| read_fem(path, args.fem_model.as_deref())).transpose()?;
-    let settings = args.settings(context);
+    let mut settings = args.settings(context);
     let count = settings.laws_of(&design.clutch.contact).len() as u64;
     let progress = context.progress("curves", "contact laws", Some(count));
-    StiffnessStudy::of(design, &settings, fem, args.pressure, &|| progress.advance(1)).map_err(
-        |why| match why {
-            NoStiffness::NoClutch(why) => Failure::no_clutch(&args.files[i], &why),
-            NoStiffness::Torque(_) => Failure::malformed(why.to_string()),
-            NoStiffness::Pressure(_) => {
-                Failure::malformed(format!("{why}; take fewer slices or --pressure slices"))
-            }
-            NoStiffness::Stopped => Failure::Interrupted,
-        },
-    )
+    settings.follow = progress.told_by(&settings.follow);
+    StiffnessStudy::of(design, &settings, fem, args.pressure).map_err(|why| match why {
+        NoStiffness::NoClutch(why) => Failure::no_clutch(&args.files[i], &why),
+        NoStiffness::Torque(_) => Failure::malformed(why.to_string()),
+        NoStiffness::Pressure(_) => {
+            Failure::malformed(format!("{why}; take fewer slices or --pressure slices"))
+        }
+        NoStiffness::Stopped => Failure::Interrupted,
+    })
 }
 
 /// Finite elements of `--fem`.

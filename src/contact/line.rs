@@ -1,12 +1,12 @@
 //! Hertz's line contact, and what makes a contact impossible.
 
 use std::f64::consts::PI;
-use std::fmt;
 
 /// Why a contact cannot be set up.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ContactError {
     /// A quantity that must be positive and finite is not.
+    #[error("{name} = {value} is not positive and finite")]
     NotPositive {
         /// Name of the quantity with its unit.
         name: &'static str,
@@ -14,6 +14,7 @@ pub enum ContactError {
         value: f64,
     },
     /// The convex radius is not smaller than the concave one: no line contact.
+    #[error("convex radius {convex_m} m does not fit into concave radius {concave_m} m")]
     Conforming {
         /// Convex radius, m.
         convex_m: f64,
@@ -21,11 +22,13 @@ pub enum ContactError {
         concave_m: f64,
     },
     /// The number of slices lies outside 1..=[`crate::contact::SliceContact::MOST_SLICES`].
+    #[error("{slices} slices: too few or too many")]
     Slices {
         /// Number given.
         slices: usize,
     },
     /// One gap per slice is needed, finite.
+    #[error("{finite} finite gaps for {slices} slices")]
     Gap {
         /// Number of slices.
         slices: usize,
@@ -33,6 +36,7 @@ pub enum ContactError {
         finite: usize,
     },
     /// A profile that no body can have.
+    #[error("point {at}: {what} ({value})")]
     Profile {
         /// What is wrong.
         what: &'static str,
@@ -42,11 +46,13 @@ pub enum ContactError {
         at: usize,
     },
     /// Tilt not finite or too large for small displacements.
+    #[error("tilt {tilt_rad} rad is not a small angle")]
     Tilt {
         /// Tilt given, rad.
         tilt_rad: f64,
     },
     /// The contact is not as long as the overlap of the bodies.
+    #[error("contact of {contact_m} m on bodies that overlap by {overlap_m} m")]
     Length {
         /// Length of the contact, m.
         contact_m: f64,
@@ -54,6 +60,7 @@ pub enum ContactError {
         overlap_m: f64,
     },
     /// A half-space grid without cells, with an odd number of cells across, or too large.
+    #[error("half-space grid of {across} x {along} cells: odd across, empty or too large")]
     Grid {
         /// Cells across the contact.
         across: usize,
@@ -61,29 +68,6 @@ pub enum ContactError {
         along: usize,
     },
 }
-
-impl fmt::Display for ContactError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotPositive { name, value } => write!(f, "{name} = {value} is not positive and finite"),
-            Self::Conforming { convex_m, concave_m } => {
-                write!(f, "convex radius {convex_m} m does not fit into concave radius {concave_m} m")
-            }
-            Self::Slices { slices } => write!(f, "{slices} slices: too few or too many"),
-            Self::Gap { slices, finite } => write!(f, "{finite} finite gaps for {slices} slices"),
-            Self::Profile { what, value, at } => write!(f, "point {at}: {what} ({value})"),
-            Self::Tilt { tilt_rad } => write!(f, "tilt {tilt_rad} rad is not a small angle"),
-            Self::Length { contact_m, overlap_m } => {
-                write!(f, "contact of {contact_m} m on bodies that overlap by {overlap_m} m")
-            }
-            Self::Grid { across, along } => {
-                write!(f, "half-space grid of {across} x {along} cells: odd across, empty or too large")
-            }
-        }
-    }
-}
-
-impl std::error::Error for ContactError {}
 
 /// `value` if positive and finite.
 pub(super) fn positive(name: &'static str, value: f64) -> Result<f64, ContactError> {

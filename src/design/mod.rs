@@ -16,7 +16,7 @@ pub use limits::{LIMIT_KEYS, LimitKey, Limits};
 pub use objective::{Link, Objective, Optimize, OptimizeVariable, multiple};
 pub(crate) use units::{m, pa};
 pub use units::{rad_s, rpm};
-pub use which::{WhichScenario, nearest};
+pub use which::{WhichScenario, did_you_mean, nearest};
 
 use crate::clutch::{Clutch, Scenario, Service, Sharing, Tolerances};
 

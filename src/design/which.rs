@@ -1,21 +1,28 @@
 //! One of a design's scenarios: by name, or the only one.
 
 use super::{Design, Scenario};
-use std::fmt;
 
 /// The known name that is much like `name`.
-pub fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
-    let likeness = |k: &&'k str| (strsim::jaro_winkler(&name.to_lowercase(), &k.to_lowercase()), *k);
-    let best = known.iter().map(likeness).max_by(|a, b| a.0.total_cmp(&b.0))?;
+pub fn nearest<'k, S: AsRef<str>>(name: &str, known: &'k [S]) -> Option<&'k str> {
+    let likeness = |k: &'k str| (strsim::jaro_winkler(&name.to_lowercase(), &k.to_lowercase()), k);
+    let best = known.iter().map(|k| likeness(k.as_ref())).max_by(|a, b| a.0.total_cmp(&b.0))?;
     (best.0 > 0.8).then_some(best.1)
 }
 
+/// To be said behind a refusal: `"; did you mean races?"`, or nothing.
+pub fn did_you_mean<S: AsRef<str>>(name: &str, known: &[S]) -> String {
+    nearest(name, known).map_or_else(String::new, |near| format!("; did you mean {near}?"))
+}
+
 /// Why it is not known which scenario is meant.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WhichScenario {
     /// The design has none.
+    #[error("the design has no scenarios; add a [[scenarios]] table")]
     None,
     /// None of that name.
+    #[error("no scenario {name}; {the} design has: {}", .known.join(", "),
+        the = nearest(name, known).map_or_else(|| "the".to_owned(), |near| format!("did you mean {near}? The")))]
     Unknown {
         /// The name.
         name: String,
@@ -23,32 +30,12 @@ pub enum WhichScenario {
         known: Vec<String>,
     },
     /// None is named, and there are several.
+    #[error("several scenarios and none is named; the design has: {}", .known.join(", "))]
     Several {
         /// Those that there are.
         known: Vec<String>,
     },
 }
-
-impl fmt::Display for WhichScenario {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::None => f.write_str("the design has no scenarios; add a [[scenarios]] table"),
-            Self::Unknown { name, known } => {
-                let names: Vec<&str> = known.iter().map(String::as_str).collect();
-                let the = match nearest(name, &names) {
-                    Some(near) => format!("did you mean {near}? The"),
-                    None => "the".to_owned(),
-                };
-                write!(f, "no scenario {name}; {the} design has: {}", known.join(", "))
-            }
-            Self::Several { known } => {
-                write!(f, "needed: --scenario NAME; the design has: {}", known.join(", "))
-            }
-        }
-    }
-}
-
-impl std::error::Error for WhichScenario {}
 
 impl Design {
     /// The scenario of that name, else the only one of those that are `meant`.

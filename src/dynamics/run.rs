@@ -85,42 +85,32 @@ impl Neglected {
     }
 }
 
-/// Why a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Stop {
-    /// The end of the scenario.
-    Finished,
-    /// The contact left the profile or the sprag rolled over at the curve's end.
-    CurveEnd,
-    /// The open sprag turned back out of reach.
-    FellAway,
-    /// Too many mode changes.
-    EventLimit,
-    /// Too many steps, or a step that became too short.
-    StepLimit,
-    /// The right-hand side ceased to be finite.
-    NotFinite,
-    /// Slip began under load or went too far, where that was to end the run ([`run_while_it_sticks`]).
-    Slipped,
-    /// Asked to stop from outside.
-    Interrupted,
+named! {
+    /// Why a run ended.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Stop {
+        /// The end of the scenario.
+        Finished = "finished",
+        /// The contact left the profile or the sprag rolled over at the curve's end.
+        CurveEnd = "curve-end",
+        /// The open sprag turned back out of reach.
+        FellAway = "fell-away",
+        /// Too many mode changes.
+        EventLimit = "event-limit",
+        /// Too many steps, or a step that became too short.
+        StepLimit = "step-limit",
+        /// The right-hand side ceased to be finite.
+        NotFinite = "not-finite",
+        /// Slip began under load or went too far, where that was to end the run ([`run_while_it_sticks`]).
+        Slipped = "slipped",
+        /// Asked to stop from outside.
+        Interrupted = "interrupted",
+    }
+    /// Name in reports and JSON.
+    pub fn name;
 }
 
 impl Stop {
-    /// Name in reports and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Finished => "finished",
-            Self::CurveEnd => "curve-end",
-            Self::FellAway => "fell-away",
-            Self::EventLimit => "event-limit",
-            Self::StepLimit => "step-limit",
-            Self::NotFinite => "not-finite",
-            Self::Slipped => "slipped",
-            Self::Interrupted => "interrupted",
-        }
-    }
-
     /// Whether the run gave up: it met a limit of work or ceased to be finite, so it says nothing of what would have come
     /// (an interrupted run was stopped from outside; the other ends are answers).
     pub fn gave_up(self) -> bool {

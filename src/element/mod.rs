@@ -116,39 +116,23 @@ impl From<Torque> for Port {
 }
 
 /// What was asked makes no sense.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{what}")]
 pub struct Malformed {
     /// What was given, and what is allowed.
     pub what: String,
 }
 
-impl std::fmt::Display for Malformed {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.what)
-    }
-}
-
-impl std::error::Error for Malformed {}
-
 /// Why there is no element.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoElement {
     /// A number of the question is none that is allowed.
+    #[error("{0}")]
     Malformed(Malformed),
     /// The clutch cannot begin so.
+    #[error("{0}")]
     NoStart(NoScenario),
 }
-
-impl std::fmt::Display for NoElement {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Malformed(why) => write!(f, "{why}"),
-            Self::NoStart(why) => write!(f, "{why}"),
-        }
-    }
-}
-
-impl std::error::Error for NoElement {}
 
 /// Where an element stands. Numbers only, all finite: through `serde` and back it is the same to the bit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,6 @@ use crate::clutch::Clutch;
 use crate::design::Design;
 use crate::file::DesignError;
 use crate::profile::{Outline, OutlineError, Profile, ProfileError};
-use std::fmt;
 
 /// A clutch before press fits, at the reference temperature, with its profile and, where flanks are known, its outline.
 #[derive(Debug, Clone)]
@@ -19,47 +18,34 @@ pub struct MadeClutch {
 }
 
 /// Why a part of a design cannot be drawn.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum NoPart {
     /// The races as made are no clutch.
+    #[error("{0}")]
     Refused(DesignError),
     /// The profile cannot be placed.
+    #[error("the profile cannot be placed: {0}")]
     Profile(ProfileError),
     /// The outline does not close.
+    #[error("the outline does not close: {0}")]
     Outline(OutlineError),
     /// No flanks close the outline.
+    #[error("the outline of the sprag is open: found neither sprags.flanks nor a sprags.width_mm above 0; \
+             give [sprags] flanks{}; or let optimize find them with flank_rear_mm and flank_front_mm among \
+             its variables",
+        for_example(*.narrowest_m))]
     Open {
         /// Widths of the narrowest flanks that would, rear and front, m.
         narrowest_m: Option<[f64; 2]>,
     },
 }
 
-impl fmt::Display for NoPart {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Refused(why) => why.fmt(f),
-            Self::Profile(why) => write!(f, "the profile cannot be placed: {why}"),
-            Self::Outline(why) => write!(f, "the outline does not close: {why}"),
-            Self::Open { narrowest_m } => {
-                f.write_str(
-                    "the outline of the sprag is open: found neither sprags.flanks nor a sprags.width_mm above 0; \
-                     give [sprags] flanks",
-                )?;
-                if let Some([rear, front]) = narrowest_m.map(|w| w.map(|m| (m * 1e6).ceil() / 1e3)) {
-                    write!(
-                        f,
-                        ", for example flanks = {{ rear_mm = {rear}, front_mm = {front} }}, the narrowest"
-                    )?;
-                }
-                f.write_str(
-                    "; or let optimize find them with flank_rear_mm and flank_front_mm among its variables",
-                )
-            }
-        }
-    }
+fn for_example(narrowest_m: Option<[f64; 2]>) -> String {
+    narrowest_m.map_or_else(String::new, |both| {
+        let [rear, front] = both.map(|m| (m * 1e6).ceil() / 1e3);
+        format!(", for example flanks = {{ rear_mm = {rear}, front_mm = {front} }}, the narrowest")
+    })
 }
-
-impl std::error::Error for NoPart {}
 
 impl Design {
     /// The clutch as made, ready to be drawn.

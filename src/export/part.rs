@@ -10,30 +10,24 @@ use crate::profile::{Outline, Profile, Segment};
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// What is exported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    /// One sprag.
-    Sprag,
-    /// The inner race.
-    Inner,
-    /// The outer race.
-    Outer,
-    /// Both races and all sprags.
-    Clutch,
+named! {
+    /// What is exported.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Part {
+        /// One sprag.
+        Sprag = "sprag",
+        /// The inner race.
+        Inner = "inner",
+        /// The outer race.
+        Outer = "outer",
+        /// Both races and all sprags.
+        Clutch = "clutch",
+    }
+    /// Name, as flags and files have it.
+    pub fn name;
 }
 
 impl Part {
-    /// Name, as flags and files have it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sprag => "sprag",
-            Self::Inner => "inner",
-            Self::Outer => "outer",
-            Self::Clutch => "clutch",
-        }
-    }
-
     /// Whether a sprag is part of it, so that its outline must be closed.
     pub fn has_sprag(self) -> bool {
         matches!(self, Self::Sprag | Self::Clutch)

@@ -4,39 +4,28 @@ use super::{DrawnClutch, Part};
 use crate::profile::{Profile, Segment};
 use nalgebra::Vector2;
 
-/// Layers: what lies on them, and how it is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Layer {
-    /// Closed outlines of sprags.
-    Sprag,
-    /// Circles of the races.
-    Races,
-    /// Centres of arcs, contacts at first contact and the centroid.
-    Centres,
-    /// Radii from centres to the ends of their arcs; axes.
-    CentreLines,
-    /// Short strokes across the outline where one arc ends and the next begins.
-    ArcEnds,
-    /// Words.
-    Text,
+named! {
+    /// Layers: what lies on them, and how it is drawn.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(super) enum Layer {
+        /// Closed outlines of sprags.
+        Sprag = "SPRAG",
+        /// Circles of the races.
+        Races = "RACES",
+        /// Centres of arcs, contacts at first contact and the centroid.
+        Centres = "CENTRES",
+        /// Radii from centres to the ends of their arcs; axes.
+        CentreLines = "CENTRE_LINES",
+        /// Short strokes across the outline where one arc ends and the next begins.
+        ArcEnds = "ARC_ENDS",
+        /// Words.
+        Text = "TEXT",
+    }
+    /// Name in the file.
+    pub fn name;
 }
 
 impl Layer {
-    pub const ALL: [Self; 6] =
-        [Self::Sprag, Self::Races, Self::Centres, Self::CentreLines, Self::ArcEnds, Self::Text];
-
-    /// Name in the file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sprag => "SPRAG",
-            Self::Races => "RACES",
-            Self::Centres => "CENTRES",
-            Self::CentreLines => "CENTRE_LINES",
-            Self::ArcEnds => "ARC_ENDS",
-            Self::Text => "TEXT",
-        }
-    }
-
     /// Whether its lines are dash-dotted.
     pub fn is_dashed(self) -> bool {
         self == Self::CentreLines

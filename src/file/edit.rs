@@ -3,8 +3,6 @@
 //! In: text, variables or limits in the file's units. Out: text. Absent: checking the new design (parse
 //! it). Equations: none. Numbers are written in the shortest form that reads back as the same double.
 
-use std::fmt;
-
 use toml_edit::{DocumentMut, Item, Table, Value};
 
 use super::document::step_of;
@@ -13,11 +11,13 @@ use super::variables::{variable_names, variable_path};
 use crate::profile::Flanks;
 
 /// Why a value cannot be written.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum EditError {
     /// The text is no TOML.
+    #[error("the design is no TOML: {0}")]
     Syntax(String),
     /// No such variable or limit.
+    #[error("no {name:?}; there are {}", .known.join(", "))]
     UnknownName {
         /// The name asked for.
         name: String,
@@ -25,29 +25,18 @@ pub enum EditError {
         known: Vec<String>,
     },
     /// The file does not hold the key that the variable sets.
+    #[error("the design holds no {key}")]
     MissingKey {
         /// Dotted path of the key.
         key: String,
     },
     /// The value is not finite.
+    #[error("the value of {name} is not a finite number")]
     NotFinite {
         /// The name it was meant for.
         name: String,
     },
 }
-
-impl fmt::Display for EditError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Syntax(what) => write!(f, "the design is no TOML: {what}"),
-            Self::UnknownName { name, known } => write!(f, "no {name:?}; there are {}", known.join(", ")),
-            Self::MissingKey { key } => write!(f, "the design holds no {key}"),
-            Self::NotFinite { name } => write!(f, "the value of {name} is not a finite number"),
-        }
-    }
-}
-
-impl std::error::Error for EditError {}
 
 /// The text with design variables set, each in the unit of its name ([`VARIABLES`](super::VARIABLES)).
 ///

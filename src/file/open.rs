@@ -14,7 +14,8 @@ pub const MOST_TABLE: u64 = 32 << 20;
 pub const MOST_RESULT: u64 = 2 << 30;
 
 /// Why a file gives no text.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("found {found}; to mend: {help}")]
 pub struct Unread {
     /// What was found instead.
     pub found: String,
@@ -25,14 +26,6 @@ pub struct Unread {
     /// Where that byte stands, from 0.
     pub at: usize,
 }
-
-impl std::fmt::Display for Unread {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "found {}; to mend: {}", self.found, self.help)
-    }
-}
-
-impl std::error::Error for Unread {}
 
 /// The text of a regular file of at most `most` bytes: a pipe or device may have no end, and is not opened.
 ///

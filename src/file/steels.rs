@@ -86,7 +86,8 @@ pub fn nearest_steel(name: &str) -> Option<&'static str> {
     };
     let all = STEELS.iter().flat_map(|s| std::iter::once(s.name).chain(s.also.iter().copied()));
     let alike: Vec<&str> = all.filter(misspelt).collect();
-    nearest(name, &alike)
+    let found = nearest(name, &alike)?;
+    alike.iter().copied().find(|alike| *alike == found)
 }
 
 /// The steel that a body names; `Err` where there is none of that name.

@@ -14,7 +14,7 @@ use super::no_fit::{NoFit, SoFar};
 use super::observation::{Observation, ObservedQuantity, Use};
 use super::predict::{NoPrediction, Prediction, design_with, predict};
 use super::statistics::{Doubt, INSEPARABLE, Knowledge, correlation, knowledge, moved_by};
-use crate::design::{Design, nearest};
+use crate::design::{Design, did_you_mean};
 use crate::file::{inputs, is_whole, value_at, variable_names, variable_path};
 use crate::follow::Follow;
 use crate::numeric::setting::{BadSetting, in_range};
@@ -401,12 +401,8 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
         }
         let path = variable_path(&u.name, arcs).or_else(|| u.name.contains('.').then(|| u.name.clone()));
         let known = variable_names(arcs);
-        // A name that is like `name` among those, in words behind a refusal.
-        let near = |names: &[&str]| {
-            nearest(&u.name, names).map_or(String::new(), |near| format!("; did you mean {near}?"))
-        };
         let path = path.ok_or_else(|| {
-            let near = near(&known.iter().map(String::as_str).collect::<Vec<_>>());
+            let near = did_you_mean(&u.name, &known);
             let known = known.join(", ");
             refuse(format!(
                 "no such variable{near}; there are {known}, and the dotted path of any number in the file"
@@ -414,7 +410,7 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
         })?;
         let value = value_at(&design.source, &path).ok_or_else(|| {
             let there = inputs(&design.source);
-            let near = near(&there.iter().map(|input| input.path.as_str()).collect::<Vec<_>>());
+            let near = did_you_mean(&u.name, &there.iter().map(|input| input.path.as_str()).collect::<Vec<_>>());
             refuse(format!("the design file holds no number {path}{near}; a key that it lacks is to be written there first"))
         })?;
         if is_whole(&path, arcs) {

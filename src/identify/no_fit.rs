@@ -1,14 +1,15 @@
 //! Why a fit came to no end.
 
 use crate::numeric::setting::BadSetting;
-use std::fmt;
 
 /// Why nothing can be fitted.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoFit {
     /// No unknown, or one twice.
+    #[error("{0}")]
     Unknowns(String),
     /// An unknown that the design does not have, or bounds that are none.
+    #[error("unknown {name:?}: {why}")]
     Unknown {
         /// Its name.
         name: String,
@@ -16,10 +17,13 @@ pub enum NoFit {
         why: String,
     },
     /// A setting out of its range.
+    #[error("{0}")]
     Setting(BadSetting),
     /// No observation takes part in the fit.
+    #[error("no row of the data is there for the fit")]
     NothingToFit,
     /// No design between the bounds answers every observation.
+    #[error("none of {tried} designs between the bounds can be held against every row of the fit; {why}")]
     Nowhere {
         /// Designs tried.
         tried: usize,
@@ -27,6 +31,7 @@ pub enum NoFit {
         why: String,
     },
     /// Stopped from outside, with the best design met until then, if any.
+    #[error("stopped")]
     Stopped(Option<SoFar>),
 }
 
@@ -42,21 +47,3 @@ pub struct SoFar {
     /// Text of the design file with these values.
     pub source: String,
 }
-
-impl fmt::Display for NoFit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unknowns(why) => f.write_str(why),
-            Self::Unknown { name, why } => write!(f, "unknown {name:?}: {why}"),
-            Self::Setting(bad) => bad.fmt(f),
-            Self::NothingToFit => f.write_str("no row of the data is there for the fit"),
-            Self::Nowhere { tried, why } => write!(
-                f,
-                "none of {tried} designs between the bounds can be held against every row of the fit; {why}"
-            ),
-            Self::Stopped(_) => f.write_str("stopped"),
-        }
-    }
-}
-
-impl std::error::Error for NoFit {}

@@ -4,66 +4,38 @@ use crate::design::nearest;
 use crate::wedge::SMALLEST_TORQUE_NM;
 use std::fmt;
 
-/// A measured or published quantity; at a torque where its name in `stiffness` is one of a static point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ObservedQuantity {
-    /// Windup at the row's torque, deg.
-    Windup,
-    /// N_bi at the row's torque, N per sprag.
-    NormalInner,
-    /// N_be at the row's torque, N per sprag.
-    NormalOuter,
-    /// tan omega at the row's torque.
-    TanOmega,
-    /// p_0 at A at the row's torque, MPa.
-    HertzInner,
-    /// p_0 at B at the row's torque, MPa.
-    HertzOuter,
-    /// Secant stiffness at the row's torque, N m/rad.
-    Secant,
-    /// Tangent stiffness at the row's torque, N m/rad.
-    Tangent,
-    /// Smallest torque at which a limit on nominal torque or the grip is reached, N m.
-    NominalTorque,
-    /// Torque at which the curve ends (roll-over, end of profile), N m.
-    EndTorque,
-    /// Speed of the outer race at which the sprags lift off in overrun, rev/min.
-    LiftOff,
+named! {
+    /// A measured or published quantity; at a torque where its name in `stiffness` is one of a static point.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum ObservedQuantity {
+        /// Windup at the row's torque, deg.
+        Windup = "windup_deg",
+        /// N_bi at the row's torque, N per sprag.
+        NormalInner = "normal_inner_n",
+        /// N_be at the row's torque, N per sprag.
+        NormalOuter = "normal_outer_n",
+        /// tan omega at the row's torque.
+        TanOmega = "tan_omega",
+        /// p_0 at A at the row's torque, MPa.
+        HertzInner = "hertz_inner_mpa",
+        /// p_0 at B at the row's torque, MPa.
+        HertzOuter = "hertz_outer_mpa",
+        /// Secant stiffness at the row's torque, N m/rad.
+        Secant = "k_secant_nm_per_rad",
+        /// Tangent stiffness at the row's torque, N m/rad.
+        Tangent = "k_tangent_nm_per_rad",
+        /// Smallest torque at which a limit on nominal torque or the grip is reached, N m.
+        NominalTorque = "nominal_torque_nm",
+        /// Torque at which the curve ends (roll-over, end of profile), N m.
+        EndTorque = "end_torque_nm",
+        /// Speed of the outer race at which the sprags lift off in overrun, rev/min.
+        LiftOff = "lift_off_rpm",
+    }
+    /// Column of the table.
+    pub fn name;
 }
 
 impl ObservedQuantity {
-    /// Every kind.
-    pub const ALL: [Self; 11] = [
-        Self::Windup,
-        Self::NormalInner,
-        Self::NormalOuter,
-        Self::TanOmega,
-        Self::HertzInner,
-        Self::HertzOuter,
-        Self::Secant,
-        Self::Tangent,
-        Self::NominalTorque,
-        Self::EndTorque,
-        Self::LiftOff,
-    ];
-
-    /// Column of the table.
-    pub fn column(self) -> &'static str {
-        match self {
-            Self::Windup => "windup_deg",
-            Self::NormalInner => "normal_inner_n",
-            Self::NormalOuter => "normal_outer_n",
-            Self::TanOmega => "tan_omega",
-            Self::HertzInner => "hertz_inner_mpa",
-            Self::HertzOuter => "hertz_outer_mpa",
-            Self::Secant => "k_secant_nm_per_rad",
-            Self::Tangent => "k_tangent_nm_per_rad",
-            Self::NominalTorque => "nominal_torque_nm",
-            Self::EndTorque => "end_torque_nm",
-            Self::LiftOff => "lift_off_rpm",
-        }
-    }
-
     /// Whether the row must name the torque at which it was seen.
     pub fn needs_torque(self) -> bool {
         !matches!(self, Self::NominalTorque | Self::EndTorque | Self::LiftOff)
@@ -179,7 +151,7 @@ pub fn observations(text: &str) -> Result<Vec<Observation>, Fault> {
 }
 
 fn kinds() -> String {
-    ObservedQuantity::ALL.map(ObservedQuantity::column).join(", ")
+    ObservedQuantity::ALL.map(ObservedQuantity::name).join(", ")
 }
 
 /// Whether a column has a meaning; a dotted key must look like one.
@@ -187,7 +159,7 @@ fn is_known(name: &str) -> bool {
     let of_a_key = |c: char| c.is_ascii_alphanumeric() || "_.[]".contains(c);
     ["label", "use", "torque_nm"].contains(&name)
         || name.contains('.') && name.chars().all(of_a_key)
-        || ObservedQuantity::ALL.iter().any(|k| name.strip_suffix("_sigma").unwrap_or(name) == k.column())
+        || ObservedQuantity::ALL.iter().any(|k| name.strip_suffix("_sigma").unwrap_or(name) == k.name())
 }
 
 fn check_header(header: &[String]) -> Result<(), Fault> {
@@ -211,7 +183,7 @@ fn check_header(header: &[String]) -> Result<(), Fault> {
         if !is_known(name) {
             let known: Vec<&str> = ["label", "use", "torque_nm"]
                 .into_iter()
-                .chain(ObservedQuantity::ALL.map(ObservedQuantity::column))
+                .chain(ObservedQuantity::ALL.map(ObservedQuantity::name))
                 .collect();
             let near = nearest(name, &known).map_or(String::new(), |near| format!(" (did you mean {near}?)"));
             return Err(fault(
@@ -285,17 +257,17 @@ fn row(
         return Err(Fault { line, column, found: found.to_string(), allowed });
     }
     for kind in ObservedQuantity::ALL {
-        let Some(value) = number(kind.column())? else { continue };
-        needs(kind.column(), Some(value), "a number above 0")?;
+        let Some(value) = number(kind.name())? else { continue };
+        needs(kind.name(), Some(value), "a number above 0")?;
         if kind.needs_torque() && torque_nm.is_none() {
             return Err(Fault {
                 line,
-                column: kind.column().to_owned(),
+                column: kind.name().to_owned(),
                 found: "no torque_nm".to_owned(),
                 allowed: "the torque at which this was seen, in the same row".to_owned(),
             });
         }
-        let sigma_column = format!("{}_sigma", kind.column());
+        let sigma_column = format!("{}_sigma", kind.name());
         let sigma = number(&sigma_column)?;
         needs(&sigma_column, sigma, "a standard error above 0")?;
         all.push(Observation {

@@ -1,7 +1,5 @@
 //! What the model says where something was observed.
 
-use std::fmt;
-
 use super::observation::{Observation, ObservedQuantity};
 use crate::design::{Design, rpm};
 use crate::file::{EditError, with_keys};
@@ -18,41 +16,30 @@ pub struct Prediction {
 }
 
 /// Why there is no prediction.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoPrediction {
     /// A key or a value cannot be put into the design.
+    #[error("{0}")]
     Edit(EditError),
     /// The design with these values is refused.
+    #[error("the design is refused: {0}")]
     Refused(String),
     /// No load state.
+    #[error("{0}")]
     NoState(String),
     /// The curve ends below the torque of the observation.
+    #[error("the curve ends at {end_nm:.4} N m, below that torque")]
     BeyondTheCurve {
         /// Where it ends, N m.
         end_nm: f64,
     },
     /// Nothing lifts off below 60 000 rev/min.
+    #[error("no lift-off up to 60 000 rpm")]
     NoLiftOff,
     /// No limit of the design depends on the nominal torque.
+    #[error("the design has no limit at nominal torque")]
     NoLimit,
 }
-
-impl fmt::Display for NoPrediction {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Edit(why) => write!(f, "{why}"),
-            Self::Refused(why) => write!(f, "the design is refused: {why}"),
-            Self::NoState(why) => f.write_str(why),
-            Self::BeyondTheCurve { end_nm } => {
-                write!(f, "the curve ends at {end_nm:.4} N m, below that torque")
-            }
-            Self::NoLiftOff => f.write_str("no lift-off up to 60 000 rpm"),
-            Self::NoLimit => f.write_str("the design has no limit at nominal torque"),
-        }
-    }
-}
-
-impl std::error::Error for NoPrediction {}
 
 /// The design with the keys of a row and further values put in (dotted paths, units of the keys; the later wins).
 ///

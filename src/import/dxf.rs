@@ -112,7 +112,7 @@ pub(super) fn read(text: &str, layer: Option<&str>, said: Option<DrawnUnit>) -> 
             return Err(NoImport::new(
                 None,
                 format!("nothing on the layer {layer:?}"),
-                "name another with --layer",
+                "name another with `layer`",
             ));
         }
     }
@@ -344,7 +344,7 @@ pub(super) fn chained(mut left: Vec<DrawnCurve>, remarks: Vec<String>) -> Result
                     return Err(NoImport::new(
                         other.line,
                         format!("a second outline, {} more curves", left.len()),
-                        "leave one sprag in the drawing, or put it on a layer of its own and name that with --layer",
+                        "leave one sprag in the drawing, or put it on a layer of its own and name that with `layer`",
                     ));
                 }
                 // Points of a polygon are checked as points are.

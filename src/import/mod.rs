@@ -27,7 +27,7 @@ pub struct NoImport {
     pub line: Option<usize>,
     /// What was found.
     pub found: String,
-    /// What is allowed, and how to mend it.
+    /// What is allowed, and how to mend it; what the caller sets is named in backticks: `layer`, `unit`, `swap`, `tracks_m`.
     pub help: String,
 }
 
@@ -100,7 +100,7 @@ impl DrawnUnit {
 }
 
 /// What is said where a file names no unit.
-const TAKEN_FOR_MM: &str = "taken for millimetres; if it is in inches, say --unit inch";
+const TAKEN_FOR_MM: &str = "taken for millimetres; if it is in inches, say `unit` inch";
 
 /// The outline in a DXF; only what lies on `layer`, if named, or else on SPRAG if there is such a layer. `unit`: in place of the
 /// file's own.

@@ -130,8 +130,8 @@ pub(super) fn place(sides: &Sides, wanted: &Wanted) -> Result<FittedSprag, NoImp
                 "a sprag that touches both races next to a flank: first contact lies {:.1} deg before the end of its inner side",
                 (body.angles[n] - contact).to_degrees()
             ),
-            "check the radii of the races (--template, --inner-radius, --outer-radius), or take the other side for the outer arc \
-             (--swap)",
+            "check the radii of the races (`tracks_m`), or take the other side for the outer arc \
+             (`swap`)",
         ));
     }
     let side = Side::new(&body, &sides.curved[inner_at], mirrored, contact, wanted.tracks_m);
@@ -210,12 +210,12 @@ impl Body {
             (least * unit..=most * unit).contains(&gap_m) || (0.9..1.1).contains(&(gap_m / (most * unit)))
         };
         let help = if in_unit(25.4) {
-            "it fits as a drawing in inches: --unit inch"
+            "it fits as a drawing in inches: `unit` inch"
         } else if in_unit(1.0 / 25.4) {
-            "it fits as a drawing in millimetres that says inches: --unit mm"
+            "it fits as a drawing in millimetres that says inches: `unit` mm"
         } else {
-            "give the radii of its races: --template, or --inner-radius and --outer-radius; or take the other side for the outer \
-             arc (--swap)"
+            "give the radii of its races: `tracks_m`; or take the other side for the outer \
+             arc (`swap`)"
         };
         NoImport::new(
             None,

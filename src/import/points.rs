@@ -93,9 +93,9 @@ pub(super) fn read(text: &str, said: Option<DrawnUnit>) -> Result<Drawn, NoImpor
     Ok(Drawn { points_m, kinks: Vec::new(), remarks })
 }
 
-/// The arcs and lines of a sprag as `export --format csv` writes them.
+/// The arcs and lines of a sprag as `export` writes them.
 fn arcs(names: &[String], rows: &[(usize, Vec<String>)], said: Option<DrawnUnit>) -> Result<Drawn, NoImport> {
-    const HELP: &str = "write the table again with `export --format csv`, or give a table of x, y";
+    const HELP: &str = "write the table again with `export`, or give a table of x, y";
     let scale = said.map_or(1e-3, DrawnUnit::metres);
     let text = |(line, row): &(usize, Vec<String>), name: &str| -> Result<String, NoImport> {
         let cell = names.iter().position(|n| n == name).and_then(|k| row.get(k));

@@ -29,29 +29,21 @@ pub struct Fluid {
     pub pressure_coefficient_per_pa: f64,
 }
 
-/// What decides a film: whether pressure thickens the oil, and whether the bodies yield.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Regime {
-    /// Isoviscous, rigid: Martin.
-    IsoviscousRigid,
-    /// Isoviscous, elastic: soft.
-    IsoviscousElastic,
-    /// Piezoviscous, rigid.
-    PiezoviscousRigid,
-    /// Piezoviscous, elastic: what is commonly called elastohydrodynamic.
-    PiezoviscousElastic,
-}
-
-impl Regime {
-    /// Short, as in the literature: I or V for the oil, R or E for the bodies.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::IsoviscousRigid => "IR",
-            Self::IsoviscousElastic => "IE",
-            Self::PiezoviscousRigid => "VR",
-            Self::PiezoviscousElastic => "VE",
-        }
+named! {
+    /// What decides a film: whether pressure thickens the oil, and whether the bodies yield.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Regime {
+        /// Isoviscous, rigid: Martin.
+        IsoviscousRigid = "IR",
+        /// Isoviscous, elastic: soft.
+        IsoviscousElastic = "IE",
+        /// Piezoviscous, rigid.
+        PiezoviscousRigid = "VR",
+        /// Piezoviscous, elastic: what is commonly called elastohydrodynamic.
+        PiezoviscousElastic = "VE",
     }
+    /// Short, as in the literature: I or V for the oil, R or E for the bodies.
+    pub fn name;
 }
 
 /// A film.

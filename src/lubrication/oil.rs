@@ -2,27 +2,22 @@
 
 use super::viscosity::Walther;
 
-/// What an oil, or the oil in a grease, is made of: it decides what pressure does to the viscosity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BaseOil {
-    /// Mineral oil.
-    Mineral,
-    /// Polyalphaolefin.
-    Pao,
-    /// Ester.
-    Ester,
+named! {
+    /// What an oil, or the oil in a grease, is made of: it decides what pressure does to the viscosity.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum BaseOil {
+        /// Mineral oil.
+        Mineral = "mineral",
+        /// Polyalphaolefin.
+        Pao = "PAO",
+        /// Ester.
+        Ester = "ester",
+    }
+    /// In a word.
+    pub fn name;
 }
 
 impl BaseOil {
-    /// In a word.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Mineral => "mineral",
-            Self::Pao => "PAO",
-            Self::Ester => "ester",
-        }
-    }
-
     /// Constants (s, t) of Gold's alpha = s nu^t 1e-9 1/Pa, nu in mm^2/s (Gold and others 2001, typical of the kind: single oils lie
     /// some 15 % about it).
     fn gold(self) -> (f64, f64) {

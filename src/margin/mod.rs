@@ -38,27 +38,18 @@ use crate::scenario::{AtRest, Settings};
 use crate::wedge::{Effort, NoCurve, NoElastic, WedgeCurve};
 
 /// Why no margins can be computed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoMargins {
     /// The profile cannot be placed.
+    #[error("the profile cannot be placed: {0}")]
     Profile(crate::profile::ProfileError),
     /// The outline does not close.
+    #[error("the outline does not close: {0}")]
     Outline(crate::profile::OutlineError),
     /// No wedge curve.
+    #[error("no wedge curve: {0}")]
     Curve(NoCurve),
 }
-
-impl std::fmt::Display for NoMargins {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Profile(e) => write!(f, "the profile cannot be placed: {e}"),
-            Self::Outline(e) => write!(f, "the outline does not close: {e}"),
-            Self::Curve(e) => write!(f, "no wedge curve: {e}"),
-        }
-    }
-}
-
-impl std::error::Error for NoMargins {}
 
 impl NoMargins {
     /// Keys of the design file that decide it.

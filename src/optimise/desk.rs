@@ -10,7 +10,7 @@ use super::journal::{Entry, Journal, Memo, SearchRun, Watch};
 use super::outcome::{Iteration, Outcome, Refusal};
 use super::problem::ClutchProblem;
 use super::settings::Settings;
-use crate::follow::Follow;
+use crate::follow::{Follow, News};
 
 /// What the entries of a record belong to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -35,7 +35,8 @@ impl ProblemId {
     }
 }
 
-/// Keeper of every evaluation; only `cli` knows where.
+/// Keeper of every evaluation, which gives back what it has kept: a store, where a [`Follow`] only hears. Only `cli` knows where it keeps
+/// them.
 pub trait Record: Send {
     /// What is known of a problem from earlier.
     fn known(&mut self, _problem: &ProblemId) -> Journal {
@@ -47,8 +48,6 @@ pub trait Record: Send {
     fn derived(&mut self, _problem: &ProblemId, _x: &[f64], _along: usize) {}
     /// A step was tried, in some run.
     fn iterated(&mut self, _iteration: &Iteration) {}
-    /// A new part of the search begins.
-    fn begins(&mut self, _part: &str) {}
 }
 
 /// Keeps nothing.
@@ -70,7 +69,7 @@ struct Scribe<'d, 'a> {
 }
 
 impl<'a> Desk<'a> {
-    /// Around a record; `follow` ends its runs.
+    /// Around a record; `follow` ends its runs, and is told of parts and evaluations.
     pub fn new(follow: &Follow, record: &'a mut dyn Record) -> Self {
         Self { follow: follow.clone(), record: Mutex::new(record) }
     }
@@ -87,7 +86,7 @@ impl<'a> Desk<'a> {
 
     /// Announce a part of the search.
     pub fn begins(&self, part: &str) {
-        self.with(|record| record.begins(part));
+        self.follow.news(News::Begins(part));
     }
 
     /// A thread that died while it held the record has written whole entries or none.
@@ -158,6 +157,7 @@ impl<'a> Desk<'a> {
 impl Watch for Scribe<'_, '_> {
     fn evaluated(&mut self, entry: &Entry) {
         self.desk.with(|record| record.evaluated(&self.problem, entry));
+        self.desk.follow.news(News::Done);
     }
 
     fn derived(&mut self, x: &[f64], along: usize) {

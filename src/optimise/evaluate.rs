@@ -97,11 +97,13 @@ pub enum EvaluationPart {
 }
 
 /// Why a point has no margins. The optimiser shortens the step, and the journal keeps the reason.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, thiserror::Error)]
 pub enum NoEvaluation {
     /// The problem has no answer here, for the reason it gives.
+    #[error("{0}")]
     Refused(String),
     /// The problem returned NaN or an infinity.
+    #[error("{part:?} {index} is not a finite number")]
     NotFinite {
         /// Where it stood.
         part: EvaluationPart,
@@ -109,6 +111,7 @@ pub enum NoEvaluation {
         index: usize,
     },
     /// Other counts of (objectives, limits) than at the first point, or no objective at all.
+    #[error("(objectives, limits) number {found:?}, expected {expected:?}")]
     Shape {
         /// Counts at the first point (at least one objective).
         expected: (usize, usize),
@@ -116,17 +119,3 @@ pub enum NoEvaluation {
         found: (usize, usize),
     },
 }
-
-impl std::fmt::Display for NoEvaluation {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            NoEvaluation::Refused(why) => write!(f, "{why}"),
-            NoEvaluation::NotFinite { part, index } => write!(f, "{part:?} {index} is not a finite number"),
-            NoEvaluation::Shape { expected, found } => {
-                write!(f, "(objectives, limits) number {found:?}, expected {expected:?}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoEvaluation {}

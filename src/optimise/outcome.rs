@@ -64,7 +64,7 @@ impl Cause {
     pub fn words(&self) -> &'static str {
         match self {
             Self::FailingRegion => {
-                "the way up leads to sprags that cannot be built or closed by their flanks (check one step further with --set)"
+                "the way up leads to sprags that cannot be built or closed by their flanks"
             }
             Self::NoDerivative(_) => "near a variable's value no design can be built",
             Self::NoDescent => "no step, however short, gains what the slopes promise",
@@ -201,9 +201,10 @@ impl Outcome {
 }
 
 /// A malformed question.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// Counts of variables differ or are zero.
+    #[error("{x0} start values, {lo} lower and {hi} upper bounds; equal counts above zero are needed")]
     Lengths {
         /// Length of x0.
         x0: usize,
@@ -213,6 +214,7 @@ pub enum Refusal {
         hi: usize,
     },
     /// Bounds that cross or are not finite.
+    #[error("variable {variable}: bounds {lo} and {hi} are not an interval")]
     Bounds {
         /// Index of the variable.
         variable: usize,
@@ -222,6 +224,7 @@ pub enum Refusal {
         hi: f64,
     },
     /// The start is not in the box.
+    #[error("variable {variable}: start {x} is outside {lo} .. {hi}")]
     StartOutside {
         /// Index of the variable.
         variable: usize,
@@ -233,33 +236,12 @@ pub enum Refusal {
         hi: f64,
     },
     /// The start has no margins, so there is nothing to improve on.
+    #[error("the start cannot be evaluated: {0}")]
     StartFails(NoEvaluation),
     /// Stopped before the start was evaluated.
+    #[error("stopped before the start was evaluated")]
     StoppedAtStart,
     /// A setting out of range.
+    #[error("{0}")]
     Setting(BadSetting),
 }
-
-impl std::fmt::Display for Refusal {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Refusal::Lengths { x0, lo, hi } => {
-                write!(
-                    f,
-                    "{x0} start values, {lo} lower and {hi} upper bounds; equal counts above zero are needed"
-                )
-            }
-            Refusal::Bounds { variable, lo, hi } => {
-                write!(f, "variable {variable}: bounds {lo} and {hi} are not an interval")
-            }
-            Refusal::StartOutside { variable, x, lo, hi } => {
-                write!(f, "variable {variable}: start {x} is outside {lo} .. {hi}")
-            }
-            Refusal::StartFails(failure) => write!(f, "the start cannot be evaluated: {failure}"),
-            Refusal::StoppedAtStart => write!(f, "stopped before the start was evaluated"),
-            Refusal::Setting(bad) => bad.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for Refusal {}

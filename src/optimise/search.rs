@@ -127,38 +127,27 @@ impl Search {
 }
 
 /// Why a search did not begin.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoSearch {
     /// The design has no `[optimize]` table.
+    #[error("the design has no [optimize] table")]
     NoTask,
     /// The given design cannot be evaluated.
+    #[error("the given design cannot be evaluated: {0}")]
     Start(NoEvaluation),
     /// The question was refused.
+    #[error("{0}")]
     Refused(Refusal),
     /// What is asked beside the search is out of range, with what is allowed.
+    #[error("{0}")]
     Asked(String),
     /// No variable is left that moves a margin.
+    #[error("no variable moves any margin, so there is nothing to search: {}", .0.join(", "))]
     NothingMoves(Vec<String>),
     /// Stopped before anything was found.
+    #[error("stopped before anything was found")]
     Stopped,
 }
-
-impl std::fmt::Display for NoSearch {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoTask => write!(f, "the design has no [optimize] table"),
-            Self::Start(e) => write!(f, "the given design cannot be evaluated: {e}"),
-            Self::Refused(e) => write!(f, "{e}"),
-            Self::Asked(what) => write!(f, "{what}"),
-            Self::NothingMoves(names) => {
-                write!(f, "no variable moves any margin, so there is nothing to search: {}", names.join(", "))
-            }
-            Self::Stopped => write!(f, "stopped before anything was found"),
-        }
-    }
-}
-
-impl std::error::Error for NoSearch {}
 
 pub(super) fn refused(e: Refusal) -> NoSearch {
     match e {

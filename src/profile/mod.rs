@@ -60,10 +60,12 @@ pub struct Profile {
 }
 
 /// Why a set of radii is no profile.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProfileError {
     /// The sprag does not span the gap: no position touches both races.
     /// `reach_m` = r_e + r_i1 + e_1 must exceed the race gap `gap_m`, and r_e + r_i1 - e_1 must be below it.
+    #[error("the sprag is {:.4} to {:.4} mm high, the race gap {:.4} mm: no position touches both races",
+        .least_m * 1e3, .reach_m * 1e3, .gap_m * 1e3)]
     DoesNotSpan {
         /// Smallest height of the sprag over the arcs, m.
         least_m: f64,
@@ -73,30 +75,12 @@ pub enum ProfileError {
         gap_m: f64,
     },
     /// Arc `index` (from 0) does not end after it begins.
+    #[error("inner arc {} does not end after it begins", .index + 1)]
     ArcsOutOfOrder {
         /// Index of the arc.
         index: usize,
     },
 }
-
-impl std::fmt::Display for ProfileError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::DoesNotSpan { least_m, reach_m, gap_m } => write!(
-                f,
-                "the sprag is {:.4} to {:.4} mm high, the race gap {:.4} mm: no position touches both races",
-                least_m * 1e3,
-                reach_m * 1e3,
-                gap_m * 1e3
-            ),
-            Self::ArcsOutOfOrder { index } => {
-                write!(f, "inner arc {} does not end after it begins", index + 1)
-            }
-        }
-    }
-}
-
-impl std::error::Error for ProfileError {}
 
 impl Profile {
     /// Place the arcs. `arcs` holds (radius m, end turn rad) in order of engagement; race radii are those

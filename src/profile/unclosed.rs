@@ -12,11 +12,13 @@ pub enum FlankSide {
 }
 
 /// Why flanks do not close a profile. Every half width is a distance from the middle of the strut line.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OutlineError {
     /// The profile has no inner arc.
+    #[error("the profile has no inner arc")]
     NoArcs,
     /// A half width is not a positive number.
+    #[error("the {side} flank is {} mm from the strut line, not above 0", .given_m * 1e3)]
     NotPositive {
         /// The flank.
         side: FlankSide,
@@ -24,6 +26,7 @@ pub enum OutlineError {
         given_m: f64,
     },
     /// A flank leans by more than [`STEEPEST_RAD`](super::STEEPEST_RAD).
+    #[error("the {side} flank leans by {tilt_rad} rad, more than {} rad either way", super::STEEPEST_RAD)]
     TooSteep {
         /// The flank.
         side: FlankSide,
@@ -31,6 +34,8 @@ pub enum OutlineError {
         tilt_rad: f64,
     },
     /// The flank leaves the inner or the outer contact of first contact outside.
+    #[error("the {side} flank, {:.4} mm from the strut line, leaves a contact outside; both need {:.4} mm",
+        .given_m * 1e3, .needed_m * 1e3)]
     CutsContact {
         /// The flank.
         side: FlankSide,
@@ -40,6 +45,8 @@ pub enum OutlineError {
         needed_m: f64,
     },
     /// The flank passes the inner arc, however far that is extended.
+    #[error("the {side} flank, {:.4} mm from the strut line, passes the inner arc, which reaches {:.4} mm",
+        .given_m * 1e3, .reach_m * 1e3)]
     MissesInner {
         /// The flank.
         side: FlankSide,
@@ -49,6 +56,8 @@ pub enum OutlineError {
         reach_m: f64,
     },
     /// The flank passes the outer arc.
+    #[error("the {side} flank, {:.4} mm from the strut line, passes the outer arc, which reaches {:.4} mm",
+        .given_m * 1e3, .reach_m * 1e3)]
     MissesOuter {
         /// The flank.
         side: FlankSide,
@@ -58,6 +67,9 @@ pub enum OutlineError {
         reach_m: f64,
     },
     /// The front flank cuts off the end of the inner arcs.
+    #[error("the front flank, {:.4} mm from the strut line, cuts {lost_rad:.4} rad off the inner arcs; they \
+             need {:.4} mm",
+        .given_m * 1e3, .needed_m * 1e3)]
     CutsInner {
         /// Turn lost of the working profile, rad.
         lost_rad: f64,
@@ -67,6 +79,9 @@ pub enum OutlineError {
         needed_m: f64,
     },
     /// The rear flank cuts off the end of the outer arc's contact range.
+    #[error("the rear flank, {:.4} mm from the strut line, cuts {lost_rad:.4} rad off the outer arc's \
+             contact range, \
+             which needs {:.4} mm", .given_m * 1e3, .needed_m * 1e3)]
     CutsOuter {
         /// Contact range lost on the outer arc, rad.
         lost_rad: f64,
@@ -76,6 +91,7 @@ pub enum OutlineError {
         needed_m: f64,
     },
     /// Inner and outer arc cross before the flank: it has no length.
+    #[error("inner and outer arc cross {:.4} mm before they reach the {side} flank", .height_m.abs() * 1e3)]
     NoFlank {
         /// The flank.
         side: FlankSide,
@@ -92,59 +108,3 @@ impl fmt::Display for FlankSide {
         })
     }
 }
-
-impl fmt::Display for OutlineError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mm = |m: &f64| m * 1e3;
-        match self {
-            Self::NoArcs => f.write_str("the profile has no inner arc"),
-            Self::NotPositive { side, given_m } => {
-                write!(f, "the {side} flank is {} mm from the strut line, not above 0", mm(given_m))
-            }
-            Self::TooSteep { side, tilt_rad } => write!(
-                f,
-                "the {side} flank leans by {tilt_rad} rad, more than {} rad either way",
-                super::STEEPEST_RAD
-            ),
-            Self::CutsContact { side, given_m, needed_m } => write!(
-                f,
-                "the {side} flank, {:.4} mm from the strut line, leaves a contact outside; both need {:.4} mm",
-                mm(given_m),
-                mm(needed_m)
-            ),
-            Self::MissesInner { side, given_m, reach_m } => write!(
-                f,
-                "the {side} flank, {:.4} mm from the strut line, passes the inner arc, which reaches {:.4} mm",
-                mm(given_m),
-                mm(reach_m)
-            ),
-            Self::MissesOuter { side, given_m, reach_m } => write!(
-                f,
-                "the {side} flank, {:.4} mm from the strut line, passes the outer arc, which reaches {:.4} mm",
-                mm(given_m),
-                mm(reach_m)
-            ),
-            Self::CutsInner { lost_rad, given_m, needed_m } => write!(
-                f,
-                "the front flank, {:.4} mm from the strut line, cuts {lost_rad:.4} rad off the inner arcs; \
-                 they need {:.4} mm",
-                mm(given_m),
-                mm(needed_m)
-            ),
-            Self::CutsOuter { lost_rad, given_m, needed_m } => write!(
-                f,
-                "the rear flank, {:.4} mm from the strut line, cuts {lost_rad:.4} rad off the outer arc's \
-                 contact range, which needs {:.4} mm",
-                mm(given_m),
-                mm(needed_m)
-            ),
-            Self::NoFlank { side, height_m } => write!(
-                f,
-                "inner and outer arc cross {:.4} mm before they reach the {side} flank",
-                mm(&height_m.abs())
-            ),
-        }
-    }
-}
-
-impl std::error::Error for OutlineError {}

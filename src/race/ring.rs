@@ -1,7 +1,6 @@
 //! A race as a thick ring (Lame) and as a rotating disc with a hole.
 
 use std::f64::consts::TAU;
-use std::fmt;
 
 use super::rim::Rim;
 use crate::material::Material;
@@ -16,9 +15,10 @@ enum Side {
 }
 
 /// Why three lengths are no race.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RaceError {
     /// The radii must satisfy 0 <= bore < outside (0 < bore for an outer race).
+    #[error("race radii out of order: bore {bore_m} m, outside {outside_m} m")]
     RadiiOutOfOrder {
         /// Bore radius given, m.
         bore_m: f64,
@@ -26,24 +26,12 @@ pub enum RaceError {
         outside_m: f64,
     },
     /// The axial width must be positive.
+    #[error("race width {width_m} m is not positive")]
     WidthNotPositive {
         /// Width given, m.
         width_m: f64,
     },
 }
-
-impl fmt::Display for RaceError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::RadiiOutOfOrder { bore_m, outside_m } => {
-                write!(f, "race radii out of order: bore {bore_m} m, outside {outside_m} m")
-            }
-            Self::WidthNotPositive { width_m } => write!(f, "race width {width_m} m is not positive"),
-        }
-    }
-}
-
-impl std::error::Error for RaceError {}
 
 /// Inner or outer race under the mean pressure of equally spaced contacts, plane stress.
 ///

@@ -5,87 +5,62 @@ use std::f64::consts::PI;
 /// What stands where a number is missing or not finite.
 pub const MISSING: &str = "–";
 
-/// Unit in which a quantity is shown. Values inside the library are SI; only here they change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
-    /// Pure number.
-    One,
-    /// Percent of a pure number.
-    Percent,
-    /// Millimetre, from m.
-    Millimetre,
-    /// Micrometre, from m.
-    Micrometre,
-    /// Degree, from rad.
-    Degree,
-    /// Milliradian, from rad.
-    Milliradian,
-    /// Radian.
-    Radian,
-    /// Radian per second.
-    RadianPerSecond,
-    /// Newton.
-    Newton,
-    /// Newton metre.
-    NewtonMetre,
-    /// Newton metre per radian.
-    NewtonMetrePerRadian,
-    /// Megapascal, from Pa.
-    Megapascal,
-    /// Gigapascal, from Pa.
-    Gigapascal,
-    /// Second.
-    Second,
-    /// Millisecond, from s.
-    Millisecond,
-    /// Hertz.
-    Hertz,
-    /// Rate of growth or decay, 1/s.
-    PerSecond,
-    /// Revolutions per minute, from rad/s.
-    Rpm,
-    /// Metre per second.
-    MetrePerSecond,
-    /// Gram, from kg.
-    Gram,
-    /// Kilogram square metre.
-    KilogramSquareMetre,
-    /// Watt.
-    Watt,
-    /// Joule.
-    Joule,
+named! {
+    /// Unit in which a quantity is shown. Values inside the library are SI; only here they change.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Unit {
+        /// Pure number.
+        One = "",
+        /// Percent of a pure number.
+        Percent = "%",
+        /// Millimetre, from m.
+        Millimetre = "mm",
+        /// Micrometre, from m.
+        Micrometre = "µm",
+        /// Degree, from rad.
+        Degree = "deg",
+        /// Milliradian, from rad.
+        Milliradian = "mrad",
+        /// Radian.
+        Radian = "rad",
+        /// Radian per second.
+        RadianPerSecond = "rad/s",
+        /// Newton.
+        Newton = "N",
+        /// Newton metre.
+        NewtonMetre = "Nm",
+        /// Newton metre per radian.
+        NewtonMetrePerRadian = "Nm/rad",
+        /// Megapascal, from Pa.
+        Megapascal = "MPa",
+        /// Gigapascal, from Pa.
+        Gigapascal = "GPa",
+        /// Second.
+        Second = "s",
+        /// Millisecond, from s.
+        Millisecond = "ms",
+        /// Hertz.
+        Hertz = "Hz",
+        /// Rate of growth or decay, 1/s.
+        PerSecond = "1/s",
+        /// Revolutions per minute, from rad/s.
+        Rpm = "rpm",
+        /// Metre per second.
+        MetrePerSecond = "m/s",
+        /// Gram, from kg.
+        Gram = "g",
+        /// Kilogram square metre.
+        KilogramSquareMetre = "kg m²",
+        /// Watt.
+        Watt = "W",
+        /// Joule.
+        Joule = "J",
+    }
+    /// Symbol as printed in a heading; empty for a pure number.
+    pub fn symbol;
 }
 
 impl Unit {
-    /// Symbol as printed in a heading; empty for a pure number.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::One => "",
-            Self::Percent => "%",
-            Self::Millimetre => "mm",
-            Self::Micrometre => "µm",
-            Self::Degree => "deg",
-            Self::Milliradian => "mrad",
-            Self::Radian => "rad",
-            Self::RadianPerSecond => "rad/s",
-            Self::Newton => "N",
-            Self::NewtonMetre => "Nm",
-            Self::NewtonMetrePerRadian => "Nm/rad",
-            Self::Megapascal => "MPa",
-            Self::Gigapascal => "GPa",
-            Self::Second => "s",
-            Self::Millisecond => "ms",
-            Self::Hertz => "Hz",
-            Self::PerSecond => "1/s",
-            Self::Rpm => "rpm",
-            Self::MetrePerSecond => "m/s",
-            Self::Gram => "g",
-            Self::KilogramSquareMetre => "kg m²",
-            Self::Watt => "W",
-            Self::Joule => "J",
-        }
-    }
-
     /// The SI value in this unit.
     pub fn from_si(self, si: f64) -> f64 {
         match self {

@@ -8,35 +8,25 @@ use crate::dynamics::{
     Stop, TrainRun,
 };
 
-/// What the clutch did.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// No net slip beyond 1 um at the inner contact.
-    Sticks,
-    /// Net slip towards overrunning.
-    SlipsOverrunning,
-    /// Net slip towards engaging.
-    SlipsEngaging,
-    /// Contact open or without force at the end, open for more than 1 ms at a stretch, or the open sprag fell away.
-    Disengages,
-    /// The load goes beyond the end of the curve: the sprag rolls over or leaves its profile.
-    Overloaded,
-    /// Closer to another verdict than the error estimate.
-    AtThreshold,
-}
-
-impl Verdict {
-    /// Name in reports and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sticks => "sticks",
-            Self::SlipsOverrunning => "slips-overrunning",
-            Self::SlipsEngaging => "slips-engaging",
-            Self::Disengages => "disengages",
-            Self::Overloaded => "overloaded",
-            Self::AtThreshold => "at-threshold",
-        }
+named! {
+    /// What the clutch did.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Verdict {
+        /// No net slip beyond 1 um at the inner contact.
+        Sticks = "sticks",
+        /// Net slip towards overrunning.
+        SlipsOverrunning = "slips-overrunning",
+        /// Net slip towards engaging.
+        SlipsEngaging = "slips-engaging",
+        /// Contact open or without force at the end, open for more than 1 ms at a stretch, or the open sprag fell away.
+        Disengages = "disengages",
+        /// The load goes beyond the end of the curve: the sprag rolls over or leaves its profile.
+        Overloaded = "overloaded",
+        /// Closer to another verdict than the error estimate.
+        AtThreshold = "at-threshold",
     }
+    /// Name in reports and JSON.
+    pub fn name;
 }
 
 /// Where and why a run did not come to its end.

@@ -9,16 +9,19 @@ use crate::dynamics::{
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
 use crate::profile::ProfileError;
-use crate::wedge::{Effort, NoCurve, StaticPoint, WedgeCurve};
+use crate::wedge::{AtSpeeds, Effort, NoCurve, StaticPoint, WedgeCurve};
 
 /// Why a scenario has no start. A named outcome, not a fault of the file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoScenario {
     /// The profile cannot be placed.
+    #[error("the profile cannot be placed: {0}")]
     Profile(ProfileError),
     /// No wedge curve at this speed.
+    #[error("no wedge curve: {0}")]
     Curve(NoCurve),
     /// The curve ends below the preload.
+    #[error("{torque_nm} Nm is not carried: the curve ends at {end_torque_nm:.4} Nm ({reason})")]
     NotCarried {
         /// Torque asked for, N m.
         torque_nm: f64,
@@ -28,25 +31,12 @@ pub enum NoScenario {
         reason: &'static str,
     },
     /// The published scheme integrates the clutch alone, and the scene has a drivetrain.
+    #[error(
+        "the published scheme moves no drivetrain: take the event method, or give the scenario drivetrain = \
+         []"
+    )]
     PublishedTrain,
 }
-
-impl std::fmt::Display for NoScenario {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Profile(e) => write!(f, "the profile cannot be placed: {e}"),
-            Self::Curve(e) => write!(f, "no wedge curve: {e}"),
-            Self::PublishedTrain => f.write_str(
-                "the published scheme moves no drivetrain: take the event method, or give the scenario drivetrain = []",
-            ),
-            Self::NotCarried { torque_nm, end_torque_nm, reason } => {
-                write!(f, "{torque_nm} Nm is not carried: the curve ends at {end_torque_nm:.4} Nm ({reason})")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoScenario {}
 
 /// Ready to run.
 #[derive(Debug, Clone)]
@@ -134,6 +124,8 @@ pub struct AtRest<'a> {
     pub clutch: &'a Clutch,
     /// Its curve at rest, all arcs.
     pub curve: &'a WedgeCurve,
+    /// Its curves at speed.
+    pub at_speeds: &'a AtSpeeds,
 }
 
 /// Build model and initial state.
@@ -177,7 +169,7 @@ fn at_start(
     let known = known.filter(|k| k.clutch == clutch);
     let build = |speed: f64| {
         let Reduction { reach_nm, effort } = *reduction;
-        let of_known = known.and_then(|k| k.curve.at_speed(speed, reach_nm, effort));
+        let of_known = known.and_then(|k| k.at_speeds.of(k.curve, speed, reach_nm, effort));
         let anew = || WedgeCurve::build_reaching_at(clutch, &profile, speed, reach_nm, effort);
         of_known.map_or_else(anew, Ok).map_err(NoScenario::Curve)
     };

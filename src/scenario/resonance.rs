@@ -8,6 +8,7 @@ use super::periodic::{Steady, steady_motion};
 use super::prepare::{NoScenario, prepare};
 use super::simulate::Settings;
 use crate::clutch::{Scenario, ScenarioKind};
+use crate::follow::News;
 use rayon::prelude::*;
 
 /// The states of one frequency and amplitude.
@@ -24,7 +25,7 @@ pub struct ResonanceCell {
 }
 
 /// The states of `scenario` at every amplitude (N m), the first row first, and every frequency (Hz, rising), with its start and all
-/// else. `done` is told of each cell. Stopped by [`Settings::follow`]: the rows that were walked both ways until then; `Ok(None)`: not one,
+/// else. [`Settings::follow`] is told of each cell. Stopped by it [`Settings::follow`]: the rows that were walked both ways until then; `Ok(None)`: not one,
 /// or no torsional excitation.
 ///
 /// # Errors
@@ -34,11 +35,10 @@ pub fn resonance(
     frequencies_hz: &[f64],
     amplitudes_nm: &[f64],
     settings: &Settings,
-    done: &(dyn Fn() + Sync),
 ) -> Result<Option<Vec<Vec<ResonanceCell>>>, NoScenario> {
     let rows: Result<Vec<_>, NoScenario> = amplitudes_nm
         .par_iter()
-        .map(|&amplitude_nm| row(scenario, frequencies_hz, amplitude_nm, settings, done))
+        .map(|&amplitude_nm| row(scenario, frequencies_hz, amplitude_nm, settings))
         .collect();
     let rows: Vec<_> = rows?.into_iter().flatten().collect();
     Ok(Some(rows).filter(|rows| !rows.is_empty()))
@@ -49,7 +49,6 @@ fn row(
     frequencies_hz: &[f64],
     amplitude: f64,
     settings: &Settings,
-    done: &(dyn Fn() + Sync),
 ) -> Result<Option<Vec<ResonanceCell>>, NoScenario> {
     let mut scenario = scenario.clone();
     let ScenarioKind::TorsionalExcitation { amplitude_nm, .. } = &mut scenario.kind else { return Ok(None) };
@@ -67,7 +66,7 @@ fn row(
                 return None;
             }
             found.push(state);
-            done();
+            settings.follow.news(News::Done);
         }
         Some(found)
     };

@@ -7,29 +7,21 @@ use crate::clutch::Clutch;
 use crate::dynamics::{EnergyBalance, Place, Run, Stop, run};
 use crate::wedge::RollOver;
 
-/// What becomes of sprags that have come to the end of the curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fate {
-    /// They go over their highest place to the end of the way ([`RollOver::end`]).
-    RolledOver,
-    /// The torque falls in time: they are back on the curve when the scene ends, or off the inner race on the side from which they came.
-    CameBack,
-    /// The scene ends with them on the way.
-    OnTheWay,
-    /// The run met a limit of work, or was interrupted.
-    NotKnown,
-}
-
-impl Fate {
-    /// Name for reports and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::RolledOver => "rolled-over",
-            Self::CameBack => "came-back",
-            Self::OnTheWay => "on-the-way",
-            Self::NotKnown => "not-known",
-        }
+named! {
+    /// What becomes of sprags that have come to the end of the curve.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Fate {
+        /// They go over their highest place to the end of the way ([`RollOver::end`]).
+        RolledOver = "rolled-over",
+        /// The torque falls in time: they are back on the curve when the scene ends, or off the inner race on the side from which they came.
+        CameBack = "came-back",
+        /// The scene ends with them on the way.
+        OnTheWay = "on-the-way",
+        /// The run met a limit of work, or was interrupted.
+        NotKnown = "not-known",
     }
+    /// Name for reports and JSON.
+    pub fn name;
 }
 
 /// A scene beyond the end of the curve.

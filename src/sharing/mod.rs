@@ -68,29 +68,21 @@ pub struct Unlike<'a> {
     bending: [Bending; 2],
 }
 
-/// Why a sprag carries nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Idle {
-    /// It is not there.
-    Missing,
-    /// It does not stand between the tracks: too large for its gap.
-    DoesNotFit,
-    /// Its gap is too wide: it touches both tracks nowhere on its profile.
-    DoesNotTouch,
-    /// Its friction does not hold it at the touch.
-    Slips,
-}
-
-impl Idle {
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Missing => "missing",
-            Self::DoesNotFit => "does not fit",
-            Self::DoesNotTouch => "does not touch",
-            Self::Slips => "slips",
-        }
+named! {
+    /// Why a sprag carries nothing.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Idle {
+        /// It is not there.
+        Missing = "missing",
+        /// It does not stand between the tracks: too large for its gap.
+        DoesNotFit = "does not fit",
+        /// Its gap is too wide: it touches both tracks nowhere on its profile.
+        DoesNotTouch = "does not touch",
+        /// Its friction does not hold it at the touch.
+        Slips = "slips",
     }
+    /// In words.
+    pub fn words;
 }
 
 /// RingInfluence of each sprag on each place of one race, less what the law of even sprags has; m/N.

@@ -4,33 +4,26 @@ use super::requirements::{BadRequirement, NAMED, Requirements, Wish};
 use crate::design::{rad_s, rpm};
 use crate::numeric::rounded;
 
-/// Unit in which a number is typed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WishUnit {
-    /// mm.
-    Millimetre,
-    /// N m.
-    NewtonMetre,
-    /// rev/min.
-    Rpm,
-    /// Hz.
-    Hertz,
-    /// A pure number.
-    One,
+named! {
+    /// Unit in which a number is typed.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum WishUnit {
+        /// mm.
+        Millimetre = "mm",
+        /// N m.
+        NewtonMetre = "Nm",
+        /// rev/min.
+        Rpm = "rpm",
+        /// Hz.
+        Hertz = "Hz",
+        /// A pure number.
+        One = "",
+    }
+    /// Its sign; empty for a pure number.
+    pub fn sign;
 }
 
 impl WishUnit {
-    /// Its sign; empty for a pure number.
-    pub fn sign(self) -> &'static str {
-        match self {
-            Self::Millimetre => "mm",
-            Self::NewtonMetre => "Nm",
-            Self::Rpm => "rpm",
-            Self::Hertz => "Hz",
-            Self::One => "",
-        }
-    }
-
     /// `typed`, in this unit, in SI.
     pub fn si(self, typed: f64) -> f64 {
         match self {

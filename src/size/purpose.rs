@@ -46,7 +46,7 @@ pub struct Purpose {
     pub free_run_rpm: Given,
     /// Torque that reverses it, over nominal torque.
     pub reversing_share: Given,
-    /// Commands that such a drive asks next, beside those of every clutch; {} stands for the file.
+    /// Commands that answer what such a drive asks next, beside those of every clutch.
     pub ask: &'static [&'static str],
 }
 
@@ -75,7 +75,7 @@ pub const PURPOSES: [Purpose; 5] = [
         }),
         free_run_rpm: guess(50.0),
         reversing_share: guess(0.1),
-        ask: &["simulate {} --scenario engage"],
+        ask: &["simulate"],
     },
     Purpose {
         name: "backstop",
@@ -91,7 +91,7 @@ pub const PURPOSES: [Purpose; 5] = [
         excitation: None,
         free_run_rpm: Given { value: 5.0, from: "guess: the shaft comes to rest first" },
         reversing_share: guess(0.2),
-        ask: &["reengage {}"],
+        ask: &["reengage"],
     },
     Purpose {
         name: "indexing",
@@ -113,7 +113,7 @@ pub const PURPOSES: [Purpose; 5] = [
         }),
         free_run_rpm: Given { value: 20.0, from: "guess: about the turning point" },
         reversing_share: guess(0.1),
-        ask: &["feed {} --stroke DEGREES --brake NM --inertia KGM2 --frequency HZ"],
+        ask: &["feed"],
     },
     Purpose {
         name: "helicopter",
@@ -132,7 +132,7 @@ pub const PURPOSES: [Purpose; 5] = [
         }),
         free_run_rpm: guess(100.0),
         reversing_share: guess(0.05),
-        ask: &["resonance {}", "reengage {}"],
+        ask: &["resonance", "reengage"],
     },
     Purpose {
         name: "two-speed",
@@ -151,7 +151,7 @@ pub const PURPOSES: [Purpose; 5] = [
         }),
         free_run_rpm: Given { value: 300.0, from: "guess, as designs/huang2017-bench.toml" },
         reversing_share: guess(0.1),
-        ask: &["resonance {}"],
+        ask: &["resonance"],
     },
 ];
 

@@ -6,7 +6,6 @@ use crate::design::{rad_s, rpm};
 use crate::material::{STEELS, Steel};
 use crate::numeric::rounded;
 use std::f64::consts::PI;
-use std::fmt;
 
 /// A torque that swings, its crest the nominal torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -299,7 +298,8 @@ impl Wish {
 }
 
 /// A number out of range.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{what}: found {found}; allowed: {allowed}")]
 pub struct BadRequirement {
     /// Which.
     pub what: &'static str,
@@ -308,14 +308,6 @@ pub struct BadRequirement {
     /// What is allowed, with its unit.
     pub allowed: String,
 }
-
-impl fmt::Display for BadRequirement {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: found {}; allowed: {}", self.what, self.found, self.allowed)
-    }
-}
-
-impl std::error::Error for BadRequirement {}
 
 /// Nominal and peak torque, N m, of whichever is named; the other by `ratio`, peak over nominal. `None`: neither is.
 pub fn torques_nm(nominal: Option<f64>, peak: Option<f64>, ratio: f64) -> Option<[f64; 2]> {

@@ -89,10 +89,10 @@ fn first_reason(tried: &[Tried]) -> String {
         match &t.decided_by {
         Decider::Count => format!("room for {} sprags, the family has {} to {}", t.count, COUNTS.0, COUNTS.1),
         Decider::Width => {
-            format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count)
+            format!("sprags as long as the race space are wider than `width` leaves ({} sprags)", t.count)
         }
         Decider::Outside => format!(
-            "the outer race would be too thin within --outside; from {:.1} mm on it would not",
+            "the outer race would be too thin within `outside`; from {:.1} mm on it would not",
             (t.outside_m * 1e4).ceil() / 10.0
         ),
         Decider::Flanks => "no flanks (the sides of the body between the profiles) fit".to_owned(),

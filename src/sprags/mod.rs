@@ -32,57 +32,42 @@ const FURTHER: f64 = 2.5;
 const SHIFTS: [f64; 2] = [0.5, 1e-6];
 
 /// Why there is no run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoEachSprag {
     /// The scene has no start.
+    #[error("{0}")]
     NoScenario(NoScenario),
     /// Nothing moves in a scene of this kind.
+    #[error(
+        "nothing moves in a static scenario or an overrun: allowed are torsional-excitation, engagement and \
+             transient"
+    )]
     Static,
     /// The mean speed changes, and each sprag has a curve of its own.
+    #[error("sprags one by one need a constant mean speed: leave its history out of the scenario")]
     SpeedCourse,
     /// The scene has a drivetrain.
+    #[error("sprags one by one move no drivetrain: give the scenario drivetrain = []")]
     Drivetrain,
     /// No sprag can carry.
+    #[error("no sprag carries")]
     NoneCarries,
     /// One comes to its end before this torque (N m) is carried.
+    #[error(
+        "one sprag comes to its end before {0} Nm is carried where the scene starts; narrow the bounds of \
+             [sharing], or give the scene a smaller preload"
+    )]
     NotCarried(f64),
     /// The sprag of this index has no curve.
+    #[error("sprag {number}: {1}", number = .0 + 1)]
     Curve(usize, NoCurve),
     /// There are more unlike sprags than this.
+    #[error(
+        "more than {0} unlike sprags: leave the bounds of [sharing] at 0 and give those that matter in its list of \
+             sprags"
+    )]
     TooMany(usize),
 }
-
-impl std::fmt::Display for NoEachSprag {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoScenario(why) => why.fmt(f),
-            Self::Static => f.write_str(
-                "nothing moves in a static scenario or an overrun: allowed are torsional-excitation, engagement and transient",
-            ),
-            Self::SpeedCourse => f.write_str(
-                "sprags one by one need a constant mean speed: leave its history out of the scenario",
-            ),
-            Self::Drivetrain => {
-                f.write_str("sprags one by one move no drivetrain: give the scenario drivetrain = []")
-            }
-            Self::NoneCarries => {
-                f.write_str("no sprag carries; `sharing` without --scenario says of each why")
-            }
-            Self::NotCarried(nm) => write!(
-                f,
-                "one sprag comes to its end before {nm} Nm is carried where the scene starts; narrow the bounds of [sharing], or give the \
-                 scene a smaller preload"
-            ),
-            Self::Curve(i, why) => write!(f, "sprag {}: {why}", i + 1),
-            Self::TooMany(most) => write!(
-                f,
-                "more than {most} unlike sprags: leave the bounds of [sharing] at 0 and give those that matter in its list of sprags"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for NoEachSprag {}
 
 /// A scene of unlike sprags.
 #[derive(Debug, Clone)]

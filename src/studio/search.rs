@@ -2,8 +2,7 @@
 
 use crate::answer::search::{Hints, SearchSettings};
 use crate::design::Design;
-use crate::follow::Follow;
-use crate::optimise::{Entry, ProblemId, Record};
+use crate::follow::{Follow, News};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -60,17 +59,12 @@ impl Searching {
     }
 }
 
-struct Counter<'a>(&'a AtomicUsize);
-
-impl Record for Counter<'_> {
-    fn evaluated(&mut self, _problem: &ProblemId, _entry: &Entry) {
-        self.0.fetch_add(1, Ordering::Relaxed);
-    }
-}
-
-fn tell(design: &Design, shared: &SearchState) -> SearchProgress {
-    let ask = SearchSettings { follow: shared.follow.clone(), ..SearchSettings::default() };
-    match design.optimise_recorded(&ask, &mut Counter(&shared.evaluations)) {
+fn tell(design: &Design, shared: &Arc<SearchState>) -> SearchProgress {
+    let counter = shared.clone();
+    let follow = shared.follow.telling(move |news| {
+        counter.evaluations.fetch_add(usize::from(news == News::Done), Ordering::Relaxed);
+    });
+    match design.optimise(&SearchSettings { follow, ..SearchSettings::default() }) {
         Ok(answer) => {
             let story = &answer.story;
             let words = story.verdict(&Hints::default());

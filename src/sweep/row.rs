@@ -6,7 +6,6 @@ use crate::follow::Follow;
 use crate::margin::RESOLUTION;
 use crate::optimise::{ClutchProblem, Evaluate, Evaluation, Names};
 use rayon::prelude::*;
-use std::fmt;
 
 /// What is looked at at each point of a sweep.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -26,26 +25,15 @@ pub struct Sweep {
 }
 
 /// Why a design has no sweep.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoSweep {
     /// The design has no `[optimize]` table.
+    #[error("{}", NoSample::NoTask)]
     NoTask,
     /// There is no clutch at the start, nor at any of the first points of the box; the reason at the start.
+    #[error("no clutch at the start nor at {LOOKED_AT} points of the box; at the start: {0}")]
     Nowhere(String),
 }
-
-impl fmt::Display for NoSweep {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoTask => NoSample::NoTask.fmt(f),
-            Self::Nowhere(why) => {
-                write!(f, "no clutch at the start nor at {LOOKED_AT} points of the box; at the start: {why}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoSweep {}
 
 /// Points of the box that are asked for the names of the rows where the start is no clutch: a choice.
 const LOOKED_AT: u64 = 256;

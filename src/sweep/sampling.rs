@@ -54,15 +54,23 @@ impl FromStr for Sampling {
 }
 
 /// Why there are no such points.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoSample {
     /// The design has no `[optimize]` table.
+    #[error("the design has no [optimize] table; add one with objective, scenarios and variables")]
     NoTask,
     /// Of a grid: a name that is no variable; what is.
+    #[error("{0} is no variable of [optimize]; {meant}the design's variables are: {names}", names = .1.join(", "),
+        meant = nearest(.0, .1).map_or_else(String::new, |near| format!("did you mean {near}? ")))]
     Unknown(String, Vec<String>),
     /// Of a grid: named twice.
+    #[error("{0} is named twice")]
     Twice(String),
     /// Of a grid: fewer than two values, or more than a whole-numbered variable has.
+    #[error("{name}={found}: {}", .most.map_or_else(
+        || "a grid needs 2 values or more of each variable that it names".to_owned(),
+        |most| format!("allowed are 2 to {most} values, it takes whole numbers only"),
+    ))]
     Steps {
         /// Variable.
         name: String,
@@ -72,43 +80,12 @@ pub enum NoSample {
         most: Option<u64>,
     },
     /// No point, or more than can be numbered.
+    #[error("1 to 2^63 points are needed")]
     Count,
     /// More variables than the Sobol sequence has dimensions.
+    #[error("{0} variables; a Sobol sequence has {MOST_DIMENSIONS} dimensions at most")]
     Dimensions(usize),
 }
-
-impl fmt::Display for NoSample {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoTask => write!(
-                f,
-                "the design has no [optimize] table; add one with objective, scenarios and variables"
-            ),
-            Self::Unknown(name, known) => {
-                let names: Vec<&str> = known.iter().map(String::as_str).collect();
-                let meant = nearest(name, &names).map(|n| format!("did you mean {n}? ")).unwrap_or_default();
-                write!(
-                    f,
-                    "{name} is no variable of [optimize]; {meant}the design's variables are: {}",
-                    names.join(", ")
-                )
-            }
-            Self::Twice(name) => write!(f, "{name} is named twice"),
-            Self::Steps { name, found, most: Some(most) } => {
-                write!(f, "{name}={found}: allowed are 2 to {most} values, it takes whole numbers only")
-            }
-            Self::Steps { name, found, most: None } => {
-                write!(f, "{name}={found}: a grid needs 2 values or more of each variable that it names")
-            }
-            Self::Count => write!(f, "1 to 2^63 points are needed"),
-            Self::Dimensions(found) => {
-                write!(f, "{found} variables; a Sobol sequence has {MOST_DIMENSIONS} dimensions at most")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoSample {}
 
 /// The points that a [`Sampling`] means for one task.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,29 +7,21 @@ use super::quick::lowest;
 use super::table::{ArcTable, levelled, point};
 use crate::numeric::root;
 
-/// Why the curve ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EndReason {
-    /// The contact reaches the end of the last arc.
-    OffProfile,
-    /// Torque has its maximum: beyond it the sprag rolls over.
-    RollsOver,
-    /// No equilibrium was found.
-    NoConvergence,
-    /// Nobody asked for the arcs beyond.
-    NotBuilt,
-}
-
-impl EndReason {
-    /// Name for reports and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::OffProfile => "off-profile",
-            Self::RollsOver => "rolls-over",
-            Self::NoConvergence => "no-convergence",
-            Self::NotBuilt => "not-built",
-        }
+named! {
+    /// Why the curve ends.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum EndReason {
+        /// The contact reaches the end of the last arc.
+        OffProfile = "off-profile",
+        /// Torque has its maximum: beyond it the sprag rolls over.
+        RollsOver = "rolls-over",
+        /// No equilibrium was found.
+        NoConvergence = "no-convergence",
+        /// Nobody asked for the arcs beyond.
+        NotBuilt = "not-built",
     }
+    /// Name for reports and JSON.
+    pub fn name;
 }
 
 /// What dynamics needs at one alpha. Pure numbers, m, N; slopes are by alpha.
@@ -82,29 +74,18 @@ pub struct WedgeCurve {
 }
 
 /// Why a curve cannot be built at all.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoCurve {
     /// First contact at this speed lies beyond the profile or the sprag has rolled over.
+    #[error("no first contact at this speed: it lies beyond the profile, or the sprag has rolled over")]
     NoFirstContact,
     /// A closure did not settle.
+    #[error("a point of the curve did not converge")]
     NoConvergence,
     /// The elastic laws cannot be set up.
+    #[error("{0}")]
     NoElastic(NoElastic),
 }
-
-impl std::fmt::Display for NoCurve {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoFirstContact => f.write_str(
-                "no first contact at this speed: it lies beyond the profile, or the sprag has rolled over",
-            ),
-            Self::NoConvergence => f.write_str("a point of the curve did not converge"),
-            Self::NoElastic(why) => write!(f, "{why}"),
-        }
-    }
-}
-
-impl std::error::Error for NoCurve {}
 
 impl WedgeCurve {
     /// alpha at first contact at this speed, rad (0 at rest).

@@ -12,34 +12,23 @@ use crate::numeric::dual::Dual;
 use crate::race::{Race, RaceError, body_compliance_m_per_n};
 
 /// Why the laws of a clutch cannot be set up; a checked design never gives one.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoElastic {
     /// A contact.
+    #[error("the contact law cannot be set up: {0}")]
     Contact(ContactError),
     /// A race.
+    #[error("a race cannot be set up: {0}")]
     Race(RaceError),
     /// A race too thin for what it is taken to be: a half-plane that ends in a ring. Its wall, m.
+    #[error("a race with a wall of {:.4} mm between its track and its other face is too thin to be a ring \
+             that bends",
+        .wall_m * 1e3)]
     ThinRace {
         /// Wall, m.
         wall_m: f64,
     },
 }
-
-impl std::fmt::Display for NoElastic {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Contact(why) => write!(f, "the contact law cannot be set up: {why}"),
-            Self::Race(why) => write!(f, "a race cannot be set up: {why}"),
-            Self::ThinRace { wall_m } => write!(
-                f,
-                "a race with a wall of {:.4} mm between its track and its other face is too thin to be a ring that bends",
-                wall_m * 1e3
-            ),
-        }
-    }
-}
-
-impl std::error::Error for NoElastic {}
 
 impl From<ContactError> for NoElastic {
     fn from(e: ContactError) -> Self {

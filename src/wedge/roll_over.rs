@@ -19,26 +19,19 @@ use crate::numeric::{pieces::Pieces, quadrature, root};
 use crate::profile::Brink;
 use std::f64::consts::{PI, TAU};
 
-/// How the way over the highest place ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OverEnd {
-    /// The sprag is shorter than the gap again.
-    ContactLost,
-    /// A flank lies on its race.
-    OnFlank,
-    /// No equilibrium was found.
-    NoConvergence,
-}
-
-impl OverEnd {
-    /// Name for reports and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ContactLost => "contact-lost",
-            Self::OnFlank => "on-flank",
-            Self::NoConvergence => "no-convergence",
-        }
+named! {
+    /// How the way over the highest place ends.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum OverEnd {
+        /// The sprag is shorter than the gap again.
+        ContactLost = "contact-lost",
+        /// A flank lies on its race.
+        OnFlank = "on-flank",
+        /// No equilibrium was found.
+        NoConvergence = "no-convergence",
     }
+    /// Name for reports and JSON.
+    pub fn name;
 }
 
 /// A place on the way.

@@ -15,7 +15,7 @@ use crate::accuracy::{
 };
 use crate::clutch::Scenario;
 use crate::design::Design;
-use crate::follow::Follow;
+use crate::follow::{Follow, News};
 use crate::report::{Page, Screen, Table};
 use serde_json::json;
 use std::time::Instant;
@@ -57,18 +57,13 @@ pub struct AccuracyStudy<'d> {
 }
 
 impl<'d> AccuracyStudy<'d> {
-    /// Every method on every scenario of `design`; `begun` is told of each scenario by its name, `done` of each setting that is done.
-    pub fn of(
-        design: &'d Design,
-        scenarios: &[&Scenario],
-        settings: &PrecisionSettings,
-        begun: &dyn Fn(&str),
-        done: &dyn Fn(),
-    ) -> Self {
+    /// Every method on every scenario of `design`; [`PrecisionSettings::follow`] is told of each scenario that begins and each setting
+    /// that is done.
+    pub fn of(design: &'d Design, scenarios: &[&Scenario], settings: &PrecisionSettings) -> Self {
         let (mut scenes, mut without_start) = (Vec::new(), Vec::new());
         for scenario in scenarios {
-            begun(&scenario.name);
-            match precision(scenario, settings, done) {
+            settings.follow.news(News::Begins(&scenario.name));
+            match precision(scenario, settings) {
                 Ok(Some(found)) => scenes.push(found),
                 Ok(None) => break,
                 Err(why) => without_start.push((scenario.name.clone(), why.to_string())),
@@ -87,11 +82,11 @@ impl<'d> AccuracyStudy<'d> {
         }
     }
 
-    /// The same with a stability map of `count` cases, each made by `seed` and its number; `done` is told of each.
-    pub fn with_map(self, seed: u64, count: usize, follow: &Follow, done: &(dyn Fn() + Sync)) -> Self {
+    /// The same with a stability map of `count` cases, each made by `seed` and its number; `follow` is told of each.
+    pub fn with_map(self, seed: u64, count: usize, follow: &Follow) -> Self {
         let limit = WorkLimit { follow: follow.clone(), ..WorkLimit::default() };
         let started = Instant::now();
-        let cases = stability_map(&self.design.clutch, &cases(seed, count), &limit, done);
+        let cases = stability_map(&self.design.clutch, &cases(seed, count), &limit);
         let map_time_s = started.elapsed().as_secs_f64();
         Self { seed, limit, cases, map_time_s, interrupted: follow.stopped(), ..self }
     }

@@ -25,7 +25,7 @@ use super::{Answer, Envelope, Finding, Provenance};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::file::beside_the_name;
-use crate::follow::Follow;
+use crate::follow::{Follow, News};
 use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, scene_demand, scene_rows,
     static_margins,
@@ -37,7 +37,6 @@ use body::Source;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use serde_json::json;
-use std::fmt;
 
 /// A design held against each of its limits. As JSON it is the object of `check --json` without the keys that all commands
 /// share; those are fields here.
@@ -157,27 +156,19 @@ impl Answer for DesignSheet<'_> {
 }
 
 /// Why a design was not checked.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoCheck {
     /// There is no clutch to speak of.
+    #[error("{0}")]
     NoClutch(NoMargins),
     /// [`Follow`] was stopped.
+    #[error("stopped before every margin was known")]
     Stopped,
 }
 
-impl fmt::Display for NoCheck {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoClutch(why) => why.fmt(f),
-            Self::Stopped => write!(f, "stopped before every margin was known"),
-        }
-    }
-}
-
-impl std::error::Error for NoCheck {}
-
 impl Design {
-    /// Hold the design against each of its limits, all scenarios side by side: rows, verdict, torque capacities, overrun.
+    /// Hold the design against each of its limits, all scenarios side by side: rows, verdict, torque capacities, overrun. `follow` is told
+    /// of every scenario that is done.
     ///
     /// ```
     /// use sprag_design::{Design, Follow};
@@ -192,55 +183,47 @@ impl Design {
     /// # Errors
     /// [`NoCheck`].
     pub fn check(&self, follow: &Follow) -> Result<CheckAnswer, NoCheck> {
-        check(self, follow, &|| ())
+        let (state, mut rows, ring) = static_margins(self, Capacities::Wanted).map_err(NoCheck::NoClutch)?;
+        let static_rows = rows.len();
+        let found: Vec<Option<SceneFound>> =
+            self.scenarios.par_iter().map(|scenario| scene(self, &state, scenario, follow)).collect();
+        let (mut scenario_margins, mut scenes) = (None, Vec::new());
+        for (found, scenario) in found.into_iter().zip(&self.scenarios) {
+            let SceneFound { demand, margins, error } = found.ok_or(NoCheck::Stopped)?;
+            rows.extend(margins);
+            scenes.extend(demand.map(|demand| (scenario.name.clone(), demand)));
+            scenario_margins = Some(error.max(scenario_margins.unwrap_or(0.0)));
+        }
+        let limits = &self.limits;
+        let (overrun, lift_off_rad_s) =
+            self.overruns(&state, follow).map_err(|why| NoCheck::NoClutch(NoMargins::Curve(why)))?;
+        if follow.stopped() {
+            return Err(NoCheck::Stopped);
+        }
+        let source = Source {
+            end: state.curve.end().0,
+            end_torque_nm: state.curve.end_torque_nm(),
+            asked_nm: limits.largest_torque_nm().unwrap_or(0.0),
+            lift_off_rad_s,
+            materials: beside_the_name(&self.source),
+            searched_to_rad_s: LIFT_OFF_TO_RAD_S,
+            overrun,
+            running: running::RunningSection::new(self, &state),
+            run_out: ring.as_ref().map(|ring| run_out::RunOutSection::new(self, &state, ring)),
+        };
+        let list = left_out_of(self);
+        let left_out = match &source.run_out {
+            Some(section) => off_centre(list, section.left_out()),
+            None => list,
+        };
+        let errors = CheckErrors {
+            statics_relative: state.curve.truncation(),
+            scenario_margins,
+            hertz_at_junctions_relative: straddling_error(&self.clutch),
+        };
+        let body = CheckBody::new(&rows, source);
+        Ok(CheckAnswer { design: self.clone(), state, rows, static_rows, scenes, errors, left_out, body })
     }
-}
-
-/// As [`Design::check`]; `done` is told of every scenario that is done, from any thread.
-///
-/// # Errors
-/// [`NoCheck`].
-pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Result<CheckAnswer, NoCheck> {
-    let (state, mut rows, ring) = static_margins(design, Capacities::Wanted).map_err(NoCheck::NoClutch)?;
-    let static_rows = rows.len();
-    let found: Vec<Option<SceneFound>> =
-        design.scenarios.par_iter().map(|scenario| scene(design, &state, scenario, follow, done)).collect();
-    let (mut scenario_margins, mut scenes) = (None, Vec::new());
-    for (found, scenario) in found.into_iter().zip(&design.scenarios) {
-        let SceneFound { demand, margins, error } = found.ok_or(NoCheck::Stopped)?;
-        rows.extend(margins);
-        scenes.extend(demand.map(|demand| (scenario.name.clone(), demand)));
-        scenario_margins = Some(error.max(scenario_margins.unwrap_or(0.0)));
-    }
-    let limits = &design.limits;
-    let (overrun, lift_off_rad_s) =
-        design.overruns(&state, follow).map_err(|why| NoCheck::NoClutch(NoMargins::Curve(why)))?;
-    if follow.stopped() {
-        return Err(NoCheck::Stopped);
-    }
-    let source = Source {
-        end: state.curve.end().0,
-        end_torque_nm: state.curve.end_torque_nm(),
-        asked_nm: limits.largest_torque_nm().unwrap_or(0.0),
-        lift_off_rad_s,
-        materials: beside_the_name(&design.source),
-        searched_to_rad_s: LIFT_OFF_TO_RAD_S,
-        overrun,
-        running: running::RunningSection::new(design, &state),
-        run_out: ring.as_ref().map(|ring| run_out::RunOutSection::new(design, &state, ring)),
-    };
-    let list = left_out_of(design);
-    let left_out = match &source.run_out {
-        Some(section) => off_centre(list, section.left_out()),
-        None => list,
-    };
-    let errors = CheckErrors {
-        statics_relative: state.curve.truncation(),
-        scenario_margins,
-        hertz_at_junctions_relative: straddling_error(&design.clutch),
-    };
-    let body = CheckBody::new(&rows, source);
-    Ok(CheckAnswer { design: design.clone(), state, rows, static_rows, scenes, errors, left_out, body })
 }
 
 /// One scenario: demand and margins at the finer tolerance, and how far those are off.
@@ -258,15 +241,9 @@ pub(crate) fn fine(follow: &Follow) -> Settings {
 }
 
 /// One scenario at two tolerances; nothing once somebody asked to stop.
-fn scene(
-    design: &Design,
-    state: &LoadState,
-    scenario: &Scenario,
-    follow: &Follow,
-    done: &(dyn Fn() + Sync),
-) -> Option<SceneFound> {
+fn scene(design: &Design, state: &LoadState, scenario: &Scenario, follow: &Follow) -> Option<SceneFound> {
     if scenario.kind.is_overrun() {
-        done();
+        follow.news(News::Done);
         return Some(SceneFound { demand: None, margins: Vec::new(), error: 0.0 });
     }
     let coarse = Settings { follow: follow.unseen(), ..Settings::default() };
@@ -284,6 +261,6 @@ fn scene(
         return None;
     }
     let error = coarse.iter().zip(&margins).map(|(a, b)| (a.margin() - b.margin()).abs()).fold(0.0, f64::max);
-    done();
+    follow.news(News::Done);
     Some(SceneFound { demand: Some(demand), margins, error })
 }

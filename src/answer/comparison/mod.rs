@@ -15,7 +15,7 @@ use super::{Answer, Envelope, Finding, Provenance};
 use crate::compare::{Scene, SideBySide, Subject, inputs_that_differ, margins, proud_m, scenes};
 use crate::design::Design;
 use crate::file::Input;
-use crate::follow::Follow;
+use crate::follow::{Follow, News};
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin, NoMargins};
 use crate::report::{Page, Screen, Table, Unit, greek};
 use std::path::Path;
@@ -57,15 +57,11 @@ pub enum NoComparison {
     Stopped,
 }
 
-/// Statics, margins and scenes of each design; `done` is told of each that is done.
+/// Statics, margins and scenes of each design; `follow` is told of each that is done.
 ///
 /// # Errors
 /// [`NoComparison`].
-pub fn subjects(
-    designs: Vec<Design>,
-    follow: &Follow,
-    done: &dyn Fn(),
-) -> Result<Vec<Subject>, NoComparison> {
+pub fn subjects(designs: Vec<Design>, follow: &Follow) -> Result<Vec<Subject>, NoComparison> {
     let settings = fine(follow);
     let mut subjects = Vec::with_capacity(designs.len());
     for (i, design) in designs.into_iter().enumerate() {
@@ -75,7 +71,7 @@ pub fn subjects(
             return Err(NoComparison::Stopped);
         }
         subjects.push(subject);
-        done();
+        follow.news(News::Done);
     }
     Ok(subjects)
 }

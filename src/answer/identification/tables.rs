@@ -45,7 +45,7 @@ pub(super) fn residuals(found: &Identified) -> Rows<&FittedPoint> {
     Rows::of(&found.points)
         .text("label", "Row", |p| p.observation.label.as_str())
         .text("use", "Use", |p| use_name(p.observation.purpose))
-        .text("quantity", "Quantity", |p| p.observation.kind.column())
+        .text("quantity", "Quantity", |p| p.observation.kind.name())
         .number("torque_nm", "At torque", Unit::NewtonMetre, 5, |p| p.observation.torque_nm)
         .number("observed", "Observed", Unit::One, 6, |p| p.observation.value)
         .number("predicted", "Model", Unit::One, 6, |p| p.predicted.as_ref().ok().map(|s| s.value))
@@ -198,7 +198,7 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
             "to tell {} and {} apart, measure {} at the same torques as well: their correlation falls to {:.2}",
             found.unknowns[a].name,
             found.unknowns[b].name,
-            apart.quantity.column(),
+            apart.quantity.name(),
             apart.correlation
         ));
     }

@@ -19,7 +19,6 @@ use crate::margin::{
 use crate::numeric::setting::{BadSetting, all_in_range};
 use crate::report::{Page, Screen, Table, Tone};
 use serde_json::{Value, json};
-use std::fmt;
 
 /// Which race runs; the other stands.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -89,30 +88,21 @@ pub struct OverrunAnswer<'a> {
 }
 
 /// Why there is none.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoOverrun {
     /// The design has no `[lubrication]`.
+    #[error(
+        "the design has no [lubrication] table; add one, such as\n\n{EXAMPLE}\n\n`sprag-design explain \
+         lubrication` lists its keys"
+    )]
     NoLubrication,
     /// There is no clutch to speak of.
+    #[error("{0}")]
     NoClutch(NoMargins),
     /// A speed or a temperature out of its range.
+    #[error("{0}")]
     Setting(BadSetting),
 }
-
-impl fmt::Display for NoOverrun {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoLubrication => write!(
-                f,
-                "the design has no [lubrication] table; add one, such as\n\n{EXAMPLE}\n\n`sprag-design explain lubrication` lists its keys"
-            ),
-            Self::NoClutch(why) => why.fmt(f),
-            Self::Setting(bad) => bad.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for NoOverrun {}
 
 /// Temperatures of the oil that may be asked for, C: those of `lubrication.temperature_c`.
 pub const OIL_TEMPERATURES_C: [f64; 2] = [-60.0, 250.0];

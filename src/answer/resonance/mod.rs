@@ -43,17 +43,26 @@ pub struct ResonanceAnswer<'a> {
 }
 
 /// Why there are none.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoResonance {
     /// The scenario has no start.
+    #[error("{0}")]
     NoStart(NoScenario),
     /// It is no torsional excitation.
+    #[error("the scenario has no torsional excitation, so nothing that repeats")]
     NoExcitation,
     /// A drivetrain takes part, which has motions of its own.
+    #[error(
+        "a [[drivetrain]] takes part in the scenario, and its rotors, shafts and orders have motions of \
+         their own, which resonance does not look for: simulate runs the scenario with them; drivetrain = \
+         [] in the scenario leaves them out"
+    )]
     Drivetrain,
     /// A frequency, an amplitude or the tolerance is out of its range.
+    #[error("{0}")]
     Setting(BadSetting),
     /// Stopped from outside.
+    #[error("stopped")]
     Stopped,
 }
 
@@ -71,25 +80,6 @@ impl ResonanceQuestion {
     }
 }
 
-impl std::fmt::Display for NoResonance {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoStart(why) => why.fmt(f),
-            Self::NoExcitation => {
-                f.write_str("the scenario has no torsional excitation, so nothing that repeats")
-            }
-            Self::Drivetrain => f.write_str(
-                "a [[drivetrain]] takes part in the scenario, and its rotors, shafts and orders have motions of their own, which resonance \
-                 does not look for: simulate runs the scenario with them; drivetrain = [] in the scenario leaves them out",
-            ),
-            Self::Setting(bad) => bad.fmt(f),
-            Self::Stopped => f.write_str("stopped"),
-        }
-    }
-}
-
-impl std::error::Error for NoResonance {}
-
 /// A scene to begin with, for a clutch that is asked to carry `torque_nm`.
 pub fn example(torque_nm: f64) -> String {
     format!(
@@ -103,7 +93,7 @@ pub fn example(torque_nm: f64) -> String {
 
 impl Design {
     /// Periodic states of `scenario`, one of this design's; where `question` is none, the one at its own frequency and amplitude.
-    /// `done` is told of each state. Of a map that is stopped the amplitudes that were done.
+    /// [`Settings::follow`] is told of each state. Of a map that is stopped the amplitudes that were done.
     ///
     /// # Errors
     /// [`NoResonance`].
@@ -112,7 +102,6 @@ impl Design {
         scenario: &'a Scenario,
         question: &ResonanceQuestion,
         settings: &Settings,
-        done: &(dyn Fn() + Sync),
     ) -> Result<ResonanceAnswer<'a>, NoResonance> {
         let ScenarioKind::TorsionalExcitation { amplitude_nm, frequency_hz, .. } = scenario.kind else {
             return Err(NoResonance::NoExcitation);
@@ -128,13 +117,17 @@ impl Design {
         let one = frequencies.len() * amplitudes.len() == 1;
         let settings = if one { closely(settings) } else { settings.clone() };
         let asked = amplitudes.len();
-        let run = |settings: &Settings, done: &(dyn Fn() + Sync)| {
-            let rows = resonance(scenario, &frequencies, &amplitudes, settings, done);
+        let run = |settings: &Settings| {
+            let rows = resonance(scenario, &frequencies, &amplitudes, settings);
             rows.map_err(NoResonance::NoStart)?.ok_or(NoResonance::Stopped)
         };
-        let rows = run(&settings, done)?;
-        let finer = Settings { tolerance: 0.1 * settings.tolerance, ..settings.clone() };
-        let finer = if one { Some(run(&finer, &|| ())?) } else { None };
+        let rows = run(&settings)?;
+        let finer = Settings {
+            tolerance: 0.1 * settings.tolerance,
+            follow: settings.follow.unseen(),
+            ..settings.clone()
+        };
+        let finer = if one { Some(run(&finer)?) } else { None };
         let finer = finer.and_then(|rows| Some(rows.into_iter().flatten().next()?.state));
         let friction = scenario.clutch.friction.static_;
         Ok(ResonanceAnswer {

@@ -8,7 +8,6 @@ use crate::design::Design;
 use crate::file::{DesignError, EditError, with_notes};
 use crate::optimise::{Status, Variable};
 use crate::size::NOT_OPTIMISED;
-use std::fmt;
 
 /// Middle of the name of the robust design.
 pub const ROBUST: &str = "robust";
@@ -25,27 +24,17 @@ pub struct SearchFile {
 }
 
 /// Why a design file was not made.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum NoFile {
     /// The text found is no design file.
+    #[error("{0}")]
     Edit(EditError),
     /// The file would be refused.
+    #[error(
+        "not written, it would be a design file that this tool refuses; report this as a fault of {TOOL}; {0}"
+    )]
     Refused(DesignError),
 }
-
-impl fmt::Display for NoFile {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Edit(why) => why.fmt(f),
-            Self::Refused(why) => write!(
-                f,
-                "not written, it would be a design file that this tool refuses; report this as a fault of {TOOL}; {why}"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for NoFile {}
 
 impl SearchAnswer {
     /// Design files that the search is worth, found from `design`: the design found, the robust one, or where none holds every

@@ -4,7 +4,7 @@ use super::Story;
 use crate::answer::check::margin_text;
 use crate::design::Objective;
 use crate::margin::{Left, Margin};
-use crate::optimise::{NO_INFLUENCE, Optima, Price, PriceKind, Status, Variable};
+use crate::optimise::{Cause, NO_INFLUENCE, Optima, Price, PriceKind, Status, Variable};
 use crate::report::{Unit, error_beside, significant};
 
 /// Digits to which an objective is shown.
@@ -26,6 +26,8 @@ pub struct Hints {
     pub further_variables: &'static str,
     /// Behind what the answer carries, where its limits are used up to the last: how to keep some to spare.
     pub reserve: &'static str,
+    /// Behind "cannot be built": how to see why.
+    pub one_step_further: &'static str,
 }
 
 impl Default for Hints {
@@ -36,6 +38,7 @@ impl Default for Hints {
             stopped: "stopped",
             further_variables: "",
             reserve: "",
+            one_step_further: "",
         }
     }
 }
@@ -146,7 +149,10 @@ impl Story {
                 format!("its climb stopped at the evaluation limit{}", hints.evaluation_limit)
             }
             Status::Interrupted => hints.stopped.to_owned(),
-            Status::Stalled(cause) => format!("stalled: {}", cause.words()),
+            Status::Stalled(cause) => {
+                let hint = if *cause == Cause::FailingRegion { hints.one_step_further } else { "" };
+                format!("stalled: {}{hint}", cause.words())
+            }
         };
         // A limit of 3 beside 122 evaluations is no contradiction.
         let counted = match self.status() {

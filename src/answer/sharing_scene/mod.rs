@@ -49,6 +49,9 @@ impl fmt::Display for NoSharingScene {
             Self::NoSuchScene(name, there) => {
                 write!(f, "no scenario \"{name}\"; allowed: {}", there.join(", "))
             }
+            Self::NoRun(why @ NoEachSprag::NoneCarries) => {
+                write!(f, "{why}; `sharing` without --scenario says of each why")
+            }
             Self::NoRun(why) => why.fmt(f),
         }
     }

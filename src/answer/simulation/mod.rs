@@ -30,12 +30,11 @@ use super::{Answer, Envelope, Finding, Provenance};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::dynamics::Stop;
-use crate::fidelity::{self, Term};
+use crate::fidelity::{self, Term, Terms};
 use crate::report::{Page, Screen, Table};
 use crate::scenario::{Beyond, NoScenario, Prepared, Simulation, Verdict, beyond};
 use serde::{Serialize, Serializer};
 use serde_json::json;
-use std::fmt;
 
 /// A scene that has run, before it is looked at once more for what contact damping changes.
 #[derive(Debug, Clone)]
@@ -145,9 +144,10 @@ impl Answer for SimulationAnswer {
 }
 
 /// Why a scene was not simulated. What can happen to a clutch is an answer, also that it has no such start.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoAnswer {
     /// The design has no scenario of this name; those that it has.
+    #[error("no scenario {name}; the design has: {}", .known.join(", "))]
     NoSuchScenario {
         /// Name asked for.
         name: String,
@@ -155,21 +155,9 @@ pub enum NoAnswer {
         known: Vec<String>,
     },
     /// A setting makes no sense.
+    #[error("{0}")]
     Refused(RefusedSetting),
 }
-
-impl fmt::Display for NoAnswer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoSuchScenario { name, known } => {
-                write!(f, "no scenario {name}; the design has: {}", known.join(", "))
-            }
-            Self::Refused(refused) => refused.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for NoAnswer {}
 
 /// Simulate the scenario `name` of `design`.
 ///
@@ -216,8 +204,11 @@ impl Ran {
     /// Run `scenario` of `design`; [`SimulationSettings::follow`] is told how far it is.
     pub fn new(design: &Design, scenario: &Scenario, settings: &SimulationSettings) -> Self {
         let found = match settings.method {
-            Integration::Event => fidelity::simulate(scenario, &settings.of_run(scenario), settings.full)
-                .map(|planned| ((planned.prepared, planned.simulation), planned.left_out, planned.kept)),
+            Integration::Event => {
+                let terms = if settings.full { Terms::All } else { Terms::Felt };
+                fidelity::simulate(scenario, &settings.of_run(scenario), terms)
+                    .map(|planned| ((planned.prepared, planned.simulation), planned.left_out, planned.kept))
+            }
             #[cfg(feature = "validation")]
             Integration::Published { .. } => {
                 settings.run_published(scenario).map(|ran| (ran, Vec::new(), Vec::new()))

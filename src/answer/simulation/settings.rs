@@ -5,7 +5,6 @@ use crate::dynamics::History;
 use crate::follow::Follow;
 use crate::report::plain;
 use crate::scenario::{Settings, TOLERANCES};
-use std::fmt;
 
 /// Shortest step that makes sense, s: below, rounding of the time rules.
 const SHORTEST_STEP_S: f64 = 1e-9;
@@ -57,7 +56,8 @@ pub struct SimulationSettings {
 }
 
 /// A setting that makes no sense.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{} {}: allowed: {allowed}", .setting.name(), plain(*.found, 15))]
 pub struct RefusedSetting {
     /// Which one, a field of [`SimulationSettings`].
     pub setting: Setting,
@@ -67,36 +67,20 @@ pub struct RefusedSetting {
     pub allowed: String,
 }
 
-/// A field of [`SimulationSettings`] that may be refused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Setting {
-    /// [`SimulationSettings::tolerance`].
-    Tolerance,
-    /// [`SimulationSettings::step_s`].
-    Step,
-    /// [`SimulationSettings::window_s`].
-    Window,
-}
-
-impl Setting {
+named! {
+    /// A field of [`SimulationSettings`] that may be refused.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Setting {
+        /// [`SimulationSettings::tolerance`].
+        Tolerance = "tolerance",
+        /// [`SimulationSettings::step_s`].
+        Step = "step_s",
+        /// [`SimulationSettings::window_s`].
+        Window = "window_s",
+    }
     /// Its field.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tolerance => "tolerance",
-            Self::Step => "step_s",
-            Self::Window => "window_s",
-        }
-    }
+    pub fn name;
 }
-
-impl fmt::Display for RefusedSetting {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // More digits than anybody types.
-        write!(f, "{} {}: allowed: {}", self.setting.name(), plain(self.found, 15), self.allowed)
-    }
-}
-
-impl std::error::Error for RefusedSetting {}
 
 impl SimulationSettings {
     /// Refuse a tolerance, a step, a window that makes no sense in any scene.

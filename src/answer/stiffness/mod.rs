@@ -19,14 +19,13 @@ use super::left_out::{LeftOut, at_rest, left_out};
 use crate::clutch::{Clutch, ContactLaw, LawName};
 use crate::contact::ContactError;
 use crate::design::Design;
-use crate::follow::Follow;
+use crate::follow::{Follow, News};
 use crate::margin::NoMargins;
 use crate::profile::Profile;
 use crate::report::Table;
 use crate::wedge::{RollOver, SMALLEST_TORQUE_NM, StaticPoint, WedgeCurve};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
-use std::fmt;
 
 /// Rows of an even table.
 const EVEN_ROWS: usize = 20;
@@ -81,38 +80,28 @@ impl Serialize for StiffnessAnswer {
 }
 
 /// Why there are no curves.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoStiffness {
     /// There is no clutch to speak of.
+    #[error("{0}")]
     NoClutch(NoMargins),
     /// A torque, N m, that is none or smaller than the curve resolves.
+    #[error("a torque of {}", allowed_torque(*.0))]
     Torque(f64),
     /// The pressure along the length was not found.
+    #[error("no pressure along the length: {0}")]
     Pressure(ContactError),
     /// [`Follow`] was stopped.
+    #[error("stopped before every curve was known")]
     Stopped,
 }
 
-impl fmt::Display for NoStiffness {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoClutch(why) => why.fmt(f),
-            Self::Torque(torque) if torque.abs() < SMALLEST_TORQUE_NM => {
-                write!(f, "a torque of {torque:e} Nm is too small: allowed from {SMALLEST_TORQUE_NM:e} Nm up")
-            }
-            Self::Torque(torque) => {
-                write!(
-                    f,
-                    "a torque of {torque} Nm: allowed are finite ones from {SMALLEST_TORQUE_NM:e} Nm up"
-                )
-            }
-            Self::Pressure(why) => write!(f, "no pressure along the length: {why}"),
-            Self::Stopped => write!(f, "stopped before every curve was known"),
-        }
+fn allowed_torque(nm: f64) -> String {
+    match nm.abs() < SMALLEST_TORQUE_NM {
+        true => format!("{nm:e} Nm is too small: allowed from {SMALLEST_TORQUE_NM:e} Nm up"),
+        false => format!("{nm} Nm: allowed are finite ones from {SMALLEST_TORQUE_NM:e} Nm up"),
     }
 }
-
-impl std::error::Error for NoStiffness {}
 
 impl StiffnessSettings {
     /// Refuse torques that no curve is read at.
@@ -158,7 +147,7 @@ impl Design {
     pub fn stiffness(&self, settings: &StiffnessSettings) -> Result<StiffnessAnswer, NoStiffness> {
         settings.validate()?;
         let profile = self.clutch.profile().map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
-        Ok(StiffnessAnswer::of(curves(self, &profile, settings, &|| ())?, self.limits.largest_torque_nm()))
+        Ok(StiffnessAnswer::of(curves(self, &profile, settings)?, self.limits.largest_torque_nm()))
     }
 }
 
@@ -183,7 +172,7 @@ impl StiffnessAnswer {
     }
 }
 
-/// Curves of the laws asked for, side by side, and their rows; `done` is told of every law that is done.
+/// Curves of the laws asked for, side by side, and their rows; [`StiffnessSettings::follow`] is told of every law that is done.
 ///
 /// # Errors
 /// [`NoStiffness`].
@@ -191,7 +180,6 @@ fn curves(
     design: &Design,
     profile: &Profile,
     settings: &StiffnessSettings,
-    done: &(dyn Fn() + Sync),
 ) -> Result<Vec<LawCurve>, NoStiffness> {
     let none = |e| NoStiffness::NoClutch(NoMargins::Curve(e));
     let curves = settings
@@ -205,7 +193,7 @@ fn curves(
             let clutch = Clutch { contact, ..design.clutch.clone() };
             let curve = WedgeCurve::build(&clutch, profile, 0.0).map_err(none)?;
             let local = WedgeCurve::build_local(&clutch, profile).map_err(none)?;
-            done();
+            settings.follow.news(News::Done);
             Ok((name, clutch, curve, local))
         })
         .collect::<Result<Vec<_>, NoStiffness>>()?;

@@ -45,7 +45,7 @@ pub struct StudyBody {
 
 impl StiffnessStudy {
     /// Curves of `design` beside `fem`, with the pressure along the length where that is asked for or the contacts are not straight;
-    /// `done` is told of every law that is done.
+    /// [`StiffnessSettings::follow`] is told of every law that is done.
     ///
     /// # Errors
     /// [`NoStiffness`].
@@ -54,12 +54,11 @@ impl StiffnessStudy {
         settings: &StiffnessSettings,
         fem: Option<Fem>,
         pressure: Option<Lengthwise>,
-        done: &(dyn Fn() + Sync),
     ) -> Result<Self, NoStiffness> {
         let started = Instant::now();
         settings.validate()?;
         let profile = design.clutch.profile().map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
-        let laws = curves(&design, &profile, settings, done)?;
+        let laws = curves(&design, &profile, settings)?;
         let shaped = (!design.clutch.axial.is_straight()).then_some(Lengthwise::Slices);
         let map = |(law, how)| PressureMap::of(law, how).map_err(NoStiffness::Pressure);
         let pressure = laws.first().zip(pressure.or(shaped)).map(map).transpose()?;

@@ -1,9 +1,8 @@
 //! Rows of a sweep as lines of CSV.
 
 use super::head::SweepHead;
-use crate::design::{Optimize, nearest};
+use crate::design::{Optimize, did_you_mean};
 use crate::sweep::{Sweep, SweepRow};
-use std::fmt;
 
 /// One column of a table of margins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,26 +24,12 @@ pub(super) const FIXED: [&str; 6] = ["index", "least", "margin", "deciding", "fe
 pub(super) const ROWS: [&str; 2] = ["objective.", "limit."];
 
 /// A column that there is not.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no column {name}; there are: {}; groups: variables, objectives, limits{}", .known.join(", "), did_you_mean(name, known))]
 pub struct ColumnsUnknown {
     name: String,
     known: Vec<String>,
 }
-
-impl fmt::Display for ColumnsUnknown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let known: Vec<&str> = self.known.iter().map(String::as_str).collect();
-        let meant = nearest(&self.name, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
-        write!(
-            f,
-            "no column {}; there are: {}; groups: variables, objectives, limits{meant}",
-            self.name,
-            known.join(", ")
-        )
-    }
-}
-
-impl std::error::Error for ColumnsUnknown {}
 
 /// The text of a table of margins: two lines first, then one for each row.
 #[derive(Debug, Clone)]

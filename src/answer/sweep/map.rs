@@ -4,11 +4,10 @@
 
 use super::head::{Holds, SweepHead};
 use super::lines::{FIXED, ROWS};
-use super::table::{Fault, Records};
-use crate::design::nearest;
+use super::table::{NoTable, Records};
+use crate::design::did_you_mean;
 use crate::margin::RESOLUTION;
 use std::collections::BTreeSet;
-use std::fmt;
 use std::io::Read;
 
 /// Values of a variable that are told apart: with more of them it is taken as continuous.
@@ -21,35 +20,6 @@ const PER_TILE: f64 = 20.0;
 const MOST_PAIRS: usize = 6;
 /// Points kept for parallel coordinates: between half of them and all.
 const KEPT: usize = 400;
-
-/// Why there is no map.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NoMap {
-    /// Line; 0 where it is the whole file.
-    pub line: u64,
-    /// What is wrong, in words.
-    pub what: String,
-}
-
-impl NoMap {
-    fn whole(what: impl Into<String>) -> Self {
-        Self { line: 0, what: what.into() }
-    }
-}
-
-impl From<Fault> for NoMap {
-    fn from(Fault { line, what }: Fault) -> Self {
-        Self { line, what }
-    }
-}
-
-impl fmt::Display for NoMap {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.line > 0 { write!(f, "line {}: {}", self.line, self.what) } else { f.write_str(&self.what) }
-    }
-}
-
-impl std::error::Error for NoMap {}
 
 /// A variable of the table.
 #[derive(Debug, Clone, PartialEq)]
@@ -189,15 +159,15 @@ impl SweepMap {
     /// First reading of one part: columns and ranges.
     ///
     /// # Errors
-    /// [`NoMap`]: no table of margins, or one of another sweep than the parts before.
-    pub fn survey(&mut self, part: impl Read) -> Result<(), NoMap> {
+    /// [`NoTable`]: no table of margins, or one of another sweep than the parts before.
+    pub fn survey(&mut self, part: impl Read) -> Result<(), NoTable> {
         let mut records = Records::open(part)?;
         self.take_columns(&records.head, &records.names)?;
         while let Some(row) = records.next_row()? {
             let x: Option<Vec<f64>> =
                 self.columns.variables.iter().map(|&at| row.get(at).and_then(finite)).collect();
             let Some(x) = x else {
-                return Err(NoMap {
+                return Err(NoTable {
                     line: records.line(),
                     what: "a variable is no finite number".to_owned(),
                 });
@@ -213,17 +183,17 @@ impl SweepMap {
         Ok(())
     }
 
-    fn take_columns(&mut self, head: &Option<SweepHead>, names: &[String]) -> Result<(), NoMap> {
+    fn take_columns(&mut self, head: &Option<SweepHead>, names: &[String]) -> Result<(), NoTable> {
         if let Some(SweepHead { holds: Holds::Vectors, .. }) = head {
-            return Err(NoMap::whole("vectors without margins; `evaluate --vectors` computes them"));
+            return Err(NoTable::whole("vectors without margins; `evaluate --vectors` computes them"));
         }
         if !self.names.is_empty() {
             if self.names != names {
-                return Err(NoMap::whole("other columns than in the first table"));
+                return Err(NoTable::whole("other columns than in the first table"));
             }
             return match (&self.head, head) {
                 (Some(first), Some(head)) => head.differs(first).map_or(Ok(()), |why| {
-                    Err(NoMap::whole(format!("another sweep than the first table: {why}")))
+                    Err(NoTable::whole(format!("another sweep than the first table: {why}")))
                 }),
                 _ => Ok(()),
             };
@@ -233,16 +203,13 @@ impl SweepMap {
         let variables: Vec<usize> =
             (0..names.len()).filter(|&i| !FIXED.contains(&names[i].as_str()) && !rows(&names[i])).collect();
         let Some(by) = place(&self.by) else {
-            let known: Vec<&str> = names.iter().map(String::as_str).collect();
-            let meant = nearest(&self.by, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
-            return Err(NoMap::whole(format!(
-                "no column {}; there are: {}{meant}",
-                self.by,
-                known.join(", ")
-            )));
+            let (by, near) = (&self.by, did_you_mean(&self.by, names));
+            return Err(NoTable::whole(format!("no column {by}; there are: {}{near}", names.join(", "))));
         };
         if variables.is_empty() {
-            return Err(NoMap::whole("no column is a variable; ask `evaluate` for --columns variables too"));
+            return Err(NoTable::whole(
+                "no column is a variable; ask `evaluate` for --columns variables too",
+            ));
         }
         let fresh = |&at: &usize| MapVariable {
             name: names[at].clone(),
@@ -268,10 +235,10 @@ impl SweepMap {
     /// Between both readings: the planes, over each pair of `over`, or over the first pairs of variables that vary.
     ///
     /// # Errors
-    /// [`NoMap`]: no rows, or a name that is no variable of the table.
-    pub fn lay_out(&mut self, over: &[[String; 2]]) -> Result<(), NoMap> {
+    /// [`NoTable`]: no rows, or a name that is no variable of the table.
+    pub fn lay_out(&mut self, over: &[[String; 2]]) -> Result<(), NoTable> {
         if self.points == 0 {
-            return Err(NoMap::whole("a table without rows"));
+            return Err(NoTable::whole("a table without rows"));
         }
         let wanted = (self.points as f64 / PER_TILE).sqrt().clamp(TILES[0], TILES[1]) as usize;
         for v in &mut self.variables {
@@ -280,8 +247,8 @@ impl SweepMap {
         let place = |name: &String| {
             let known: Vec<&str> = self.variables.iter().map(|v| v.name.as_str()).collect();
             known.iter().position(|n| n == name).ok_or_else(|| {
-                let meant = nearest(name, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
-                NoMap::whole(format!("no variable {name}; there are: {}{meant}", known.join(", ")))
+                let near = did_you_mean(name, &known);
+                NoTable::whole(format!("no variable {name}; there are: {}{near}", known.join(", ")))
             })
         };
         let varying: Vec<usize> = (0..self.variables.len()).filter(|&i| self.variables[i].varies()).collect();
@@ -292,7 +259,7 @@ impl SweepMap {
             .collect();
         let axes: Vec<[usize; 2]> = match over {
             [] => all.iter().copied().take(MOST_PAIRS).collect(),
-            over => over.iter().map(|[x, y]| Ok([place(x)?, place(y)?])).collect::<Result<_, NoMap>>()?,
+            over => over.iter().map(|[x, y]| Ok([place(x)?, place(y)?])).collect::<Result<_, NoTable>>()?,
         };
         self.pairs_left = all.len().saturating_sub(axes.len());
         let tiles = |&[i, j]: &[usize; 2]| {
@@ -306,8 +273,8 @@ impl SweepMap {
     /// Second reading of one part, in the same order as the first.
     ///
     /// # Errors
-    /// [`NoMap`].
-    pub fn add(&mut self, part: impl Read) -> Result<(), NoMap> {
+    /// [`NoTable`].
+    pub fn add(&mut self, part: impl Read) -> Result<(), NoTable> {
         let mut records = Records::open(part)?;
         let mut at = 0;
         while let Some(row) = records.next_row()? {
@@ -328,7 +295,7 @@ impl SweepMap {
             };
             let code = c.deciding.map(|at| cell(at).to_owned()).filter(|code| !code.is_empty());
             if point.x.len() != self.variables.len() {
-                return Err(NoMap::whole("the table has changed since it was read first"));
+                return Err(NoTable::whole("the table has changed since it was read first"));
             }
             self.count(point, value.is_some(), code);
             at += 1;
@@ -438,7 +405,7 @@ mod tests {
     const TABLE: &str = "index,x_mm,y_mm,margin,deciding,feasible\n\
         0,0,-1,-0.5,hoop,0\n1,0,1,0.1,hertz,1\n2,1,-1,-0.2,hoop,0\n3,1,1,0.3,hertz,1\n4,2,-1,,,0\n5,2,1,0.2,hoop,1\n";
 
-    fn mapped(table: &str, over: &[[String; 2]]) -> Result<SweepMap, NoMap> {
+    fn mapped(table: &str, over: &[[String; 2]]) -> Result<SweepMap, NoTable> {
         let mut map = SweepMap::of("margin");
         map.survey(table.as_bytes())?;
         map.lay_out(over)?;

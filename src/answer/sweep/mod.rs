@@ -12,9 +12,10 @@ mod vectors;
 
 pub use head::{Holds, SweepHead};
 pub use lines::{ColumnsUnknown, SweepLines};
-pub use map::{Cells, MapPair, MapPoint, MapVariable, NoMap, SweepMap};
+pub use map::{Cells, MapPair, MapPoint, MapVariable, SweepMap};
 pub use map_page::{MapBody, MapRange};
-pub use vectors::{NoVectors, Vectors};
+pub use table::NoTable;
+pub use vectors::Vectors;
 
 use crate::design::Design;
 use crate::sweep::{BoxSample, NoSample, NoSweep, Sampling, Sweep, SweepSettings};

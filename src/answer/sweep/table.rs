@@ -5,11 +5,19 @@ use csv::StringRecord;
 use std::io::{BufReader, Read};
 
 /// What is wrong with a file of a sweep.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Fault {
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}{what}", if *.line > 0 { format!("line {line}: ") } else { String::new() })]
+pub struct NoTable {
     /// Line; 0 where it is the whole file.
     pub line: u64,
+    /// What is wrong, in words.
     pub what: String,
+}
+
+impl NoTable {
+    pub(super) fn whole(what: impl Into<String>) -> Self {
+        Self { line: 0, what: what.into() }
+    }
 }
 
 /// A file under reading.
@@ -22,13 +30,13 @@ pub(super) struct Records<R: Read> {
 
 impl<R: Read> Records<R> {
     /// With head and names read.
-    pub fn open(from: R) -> Result<Self, Fault> {
+    pub fn open(from: R) -> Result<Self, NoTable> {
         let reader =
             csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(BufReader::new(from));
         let mut file = Self { reader, head: None, names: Vec::new(), record: StringRecord::new() };
         loop {
             if !file.next_record()? {
-                return Err(Fault { line: 0, what: "no line with the names of columns".to_owned() });
+                return Err(NoTable::whole("no line with the names of columns"));
             }
             if !file.is_remark()? {
                 file.names = file.record.iter().map(|name| name.trim().to_owned()).collect();
@@ -40,9 +48,9 @@ impl<R: Read> Records<R> {
         }
     }
 
-    fn next_record(&mut self) -> Result<bool, Fault> {
+    fn next_record(&mut self) -> Result<bool, NoTable> {
         let line = self.reader.position().line();
-        self.reader.read_record(&mut self.record).map_err(|e| Fault { line, what: e.to_string() })
+        self.reader.read_record(&mut self.record).map_err(|e| NoTable { line, what: e.to_string() })
     }
 
     /// Line of the present record.
@@ -51,14 +59,14 @@ impl<R: Read> Records<R> {
     }
 
     /// Whether the record is a remark; a head is taken or compared.
-    fn is_remark(&mut self) -> Result<bool, Fault> {
+    fn is_remark(&mut self) -> Result<bool, NoTable> {
         if !self.record.get(0).is_some_and(|first| first.starts_with('#')) {
             return Ok(false);
         }
         // A name may hold commas.
         let text = self.record.iter().collect::<Vec<_>>().join(",");
         if SweepHead::begins(&text) {
-            let fault = |what: String| Fault { line: self.line(), what };
+            let fault = |what: String| NoTable { line: self.line(), what };
             let head: SweepHead = text
                 .parse()
                 .map_err(|()| fault("the first line of a sweep, but cut or changed".to_owned()))?;
@@ -76,7 +84,7 @@ impl<R: Read> Records<R> {
     }
 
     /// The next row, as wide as the names, its cells as they stand there; `None` at the end.
-    pub fn next_row(&mut self) -> Result<Option<&StringRecord>, Fault> {
+    pub fn next_row(&mut self) -> Result<Option<&StringRecord>, NoTable> {
         loop {
             if !self.next_record()? {
                 return Ok(None);
@@ -88,7 +96,7 @@ impl<R: Read> Records<R> {
             if self.record.len() != self.names.len() {
                 let (found, wanted) = (self.record.len(), self.names.len());
                 let what = format!("{found} values for {wanted} columns");
-                return Err(Fault { line: self.line(), what });
+                return Err(NoTable { line: self.line(), what });
             }
             return Ok(Some(&self.record));
         }

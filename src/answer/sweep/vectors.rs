@@ -2,11 +2,10 @@
 
 use super::head::{Holds, SweepHead};
 use super::lines::{FIXED, begin_vectors, vector_line};
-use super::table::{Fault, Records};
-use crate::design::{Design, OptimizeVariable, nearest};
+use super::table::{NoTable, Records};
+use crate::design::{Design, OptimizeVariable, did_you_mean};
 use crate::sweep::{BoxSample, Sampling};
 use sha2::{Digest, Sha256};
-use std::fmt;
 use std::io::Read;
 use std::ops::Range;
 
@@ -18,29 +17,6 @@ impl BoxSample {
         first.chain(range.map(|i| vector_line(i, &self.point(i))))
     }
 }
-
-/// Why a file is no file of vectors for a design.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NoVectors {
-    /// Line; 0 where it is the whole file.
-    pub line: u64,
-    /// What is wrong, in words.
-    pub what: String,
-}
-
-impl From<Fault> for NoVectors {
-    fn from(Fault { line, what }: Fault) -> Self {
-        Self { line, what }
-    }
-}
-
-impl fmt::Display for NoVectors {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.line > 0 { write!(f, "line {}: {}", self.line, self.what) } else { f.write_str(&self.what) }
-    }
-}
-
-impl std::error::Error for NoVectors {}
 
 /// Vectors of one design, read one by one: points with their numbers.
 pub struct Vectors<R: Read> {
@@ -60,10 +36,10 @@ impl<R: Read> Vectors<R> {
     /// points have numbers of their own (else their place in the file, from 0), and maybe the first line that `sample` writes.
     ///
     /// # Errors
-    /// [`NoVectors`]: vectors of another design, columns that are missing or unknown.
-    pub fn open(design: &Design, from: R) -> Result<Self, NoVectors> {
+    /// [`NoTable`]: vectors of another design, columns that are missing or unknown.
+    pub fn open(design: &Design, from: R) -> Result<Self, NoTable> {
         let records = Records::open(from)?;
-        let whole = |what: String| NoVectors { line: 0, what };
+        let whole = |what: String| NoTable { line: 0, what };
         let task = design.optimize.as_ref();
         let variables = task.map(|task| task.variables.clone()).unwrap_or_default();
         let mut promised = None;
@@ -91,8 +67,7 @@ impl<R: Read> Vectors<R> {
                 Some(i) => &mut columns[i],
                 None if name == FIXED[0] => &mut index,
                 None => {
-                    let meant =
-                        nearest(name, &names).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
+                    let meant = did_you_mean(name, &names);
                     return Err(whole(format!(
                         "column {name} is no variable of [optimize]{meant} Columns: {}, and index if wanted",
                         names.join(", ")
@@ -113,8 +88,8 @@ impl<R: Read> Vectors<R> {
     /// The next point with its number; `None` at the end.
     ///
     /// # Errors
-    /// [`NoVectors`]: what is no number, or not the point that the head promises.
-    pub fn next_point(&mut self) -> Result<Option<(u64, Vec<f64>)>, NoVectors> {
+    /// [`NoTable`]: what is no number, or not the point that the head promises.
+    pub fn next_point(&mut self) -> Result<Option<(u64, Vec<f64>)>, NoTable> {
         let Some(row) = self.records.next_row()? else { return Ok(None) };
         let read = |v: &OptimizeVariable, at: usize| {
             let cell = row.get(at).unwrap_or_default().trim();
@@ -131,11 +106,11 @@ impl<R: Read> Vectors<R> {
             self.variables.iter().zip(&self.columns).map(|(v, &at)| read(v, at)).collect();
         let index = self.index.map_or(Ok(self.next), number);
         let line = self.records.line();
-        let (x, index) = x.and_then(|x| Ok((x, index?))).map_err(|what| NoVectors { line, what })?;
+        let (x, index) = x.and_then(|x| Ok((x, index?))).map_err(|what| NoTable { line, what })?;
         if let Some(sample) = &self.promised
             && (index >= sample.count() || sample.point(index) != x)
         {
-            return Err(NoVectors {
+            return Err(NoTable {
                 line,
                 what: format!(
                     "not point {index} of {}, as the first line says; remove that line if points were changed on purpose",

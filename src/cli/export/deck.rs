@@ -24,7 +24,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     let text = design.deck(args.torque, &options).map_err(|why| match why {
         NoDeck::Profile(e) => Failure::no_clutch(&args.file, &NoMargins::Profile(e)),
         NoDeck::Outline(e) => Failure::no_clutch(&args.file, &NoMargins::Outline(e)),
-        why => Failure::of(&args.file, format!("no deck: {why}")),
+        why => Failure::of(&args.file, format!("no deck: {why}{}", way_out(&why))),
     })?;
     match &args.output {
         Some(path) => {
@@ -41,4 +41,17 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         None => output::print(&text)?,
     }
     Ok(Exit::Held)
+}
+
+/// Options that lead to a deck.
+fn way_out(why: &NoDeck) -> String {
+    match why {
+        NoDeck::BeyondCurve { .. } => "; give less with --torque".to_owned(),
+        NoDeck::NoRoom { most_nm: Some(most) } => format!(" (--torque {most})"),
+        NoDeck::NoRoom { most_nm: None } => {
+            "; take less torque (--torque) or a finer mesh (--mesh)".to_owned()
+        }
+        NoDeck::NoTorque => "; give one with --torque".to_owned(),
+        _ => String::new(),
+    }
 }

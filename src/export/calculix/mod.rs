@@ -100,9 +100,10 @@ impl Default for Options {
 }
 
 /// Why there is no deck.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoDeck {
     /// An option is not a positive finite number, or out of its range.
+    #[error("{name}: {allowed}")]
     Option {
         /// Name.
         name: &'static str,
@@ -110,16 +111,20 @@ pub enum NoDeck {
         allowed: &'static str,
     },
     /// The curve of the design's own contact law ends below the torque.
+    #[error("torque beyond the end of the wedge curve, {end_nm:.4} Nm")]
     BeyondCurve {
         /// Torque at its end, N m.
         end_nm: f64,
     },
     /// The contacts travel beyond the flanks or the sector, or so near that no mesh fits.
+    #[error("the contacts travel too near to a flank or to the next sector for a mesh at this torque{}",
+        .most_nm.map_or_else(String::new, |most| format!("; the largest torque with one is {most} Nm")))]
     NoRoom {
         /// The largest torque at which one fits, N m, to three digits; nothing where none is known.
         most_nm: Option<f64>,
     },
     /// The mesh would have more nodes than allowed.
+    #[error("the mesh would have {nodes} nodes, {most} at most")]
     TooFine {
         /// Nodes it would have.
         nodes: usize,
@@ -127,46 +132,21 @@ pub enum NoDeck {
         most: usize,
     },
     /// A race is narrower than the sprag is long; a solid deck wants it at least as wide.
+    #[error("a solid deck needs races at least as wide as the sprag is long")]
     NarrowRace,
     /// The design has no wedge curve.
+    #[error("no wedge curve: {0}")]
     NoCurve(String),
     /// No torque is given, and the design names no nominal one.
+    #[error("torque: the design names no nominal torque")]
     NoTorque,
     /// The profile cannot be placed.
+    #[error("the profile cannot be placed: {0}")]
     Profile(ProfileError),
     /// The outline does not close.
+    #[error("the outline does not close: {0}")]
     Outline(OutlineError),
 }
-
-impl std::fmt::Display for NoDeck {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Option { name, allowed } => write!(f, "{name}: {allowed}"),
-            Self::BeyondCurve { end_nm } => {
-                write!(f, "torque beyond the end of the wedge curve, {end_nm:.4} Nm; give less with --torque")
-            }
-            Self::NoRoom { most_nm } => {
-                f.write_str(
-                    "the contacts travel too near to a flank or to the next sector for a mesh at this torque",
-                )?;
-                match most_nm {
-                    Some(most) => write!(f, "; the largest torque with one is {most} Nm (--torque {most})"),
-                    None => f.write_str("; take less torque (--torque) or a finer mesh (--mesh)"),
-                }
-            }
-            Self::TooFine { nodes, most } => write!(f, "the mesh would have {nodes} nodes, {most} at most"),
-            Self::NarrowRace => f.write_str("a solid deck needs races at least as wide as the sprag is long"),
-            Self::NoCurve(why) => write!(f, "no wedge curve: {why}"),
-            Self::NoTorque => {
-                f.write_str("torque: the design names no nominal torque; give one with --torque")
-            }
-            Self::Profile(why) => write!(f, "the profile cannot be placed: {why}"),
-            Self::Outline(why) => write!(f, "the outline does not close: {why}"),
-        }
-    }
-}
-
-impl std::error::Error for NoDeck {}
 
 /// Nodes at most: beyond, `ccx` needs hours and tens of gigabytes.
 const MOST_NODES: usize = 2_000_000;

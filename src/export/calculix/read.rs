@@ -57,9 +57,10 @@ impl Reading {
 const START_TIME: f64 = 1.0;
 
 /// Why a result has no rows.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoRows {
     /// The deck was made from another design file.
+    #[error("the deck was made from another design file (hash {found}, this one {own})")]
     OtherDesign {
         /// Hash of the design in its head.
         found: String,
@@ -67,33 +68,21 @@ pub enum NoRows {
         own: String,
     },
     /// The deck's head lacks a fact, or has it damaged.
+    #[error("no deck of this tool, or its head lacks {key}")]
     Deck {
         /// Key of the fact.
         key: &'static str,
     },
     /// A line of the result that should hold numbers does not.
+    #[error("line {line} does not hold the numbers expected there")]
     Line {
         /// Number of the line, from 1.
         line: usize,
     },
     /// The result holds no converged increment under load.
+    #[error("no converged increment under load")]
     Empty,
 }
-
-impl std::fmt::Display for NoRows {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::OtherDesign { found, own } => {
-                write!(f, "the deck was made from another design file (hash {found}, this one {own})")
-            }
-            Self::Deck { key } => write!(f, "no deck of this tool, or its head lacks {key}"),
-            Self::Line { line } => write!(f, "line {line} does not hold the numbers expected there"),
-            Self::Empty => f.write_str("no converged increment under load"),
-        }
-    }
-}
-
-impl std::error::Error for NoRows {}
 
 /// Force and moment about the axis at one contact, mm and N.
 #[derive(Debug, Clone, Copy)]

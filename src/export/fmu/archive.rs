@@ -6,7 +6,6 @@ use crate::element::{Beginning, Element, NoElement, Settings};
 use crate::file::inputs;
 use rawzip::{CompressionMethod, ZipArchiveWriter};
 use std::env::consts::{ARCH, DLL_SUFFIX, OS};
-use std::fmt;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -14,33 +13,24 @@ use std::path::{Path, PathBuf};
 const LEVEL: u8 = 7;
 
 /// Why there is no unit.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum NoUnit {
     /// The clutch cannot begin at rest without load.
+    #[error("{0}")]
     NoStart(NoElement),
     /// The standard has no name for this platform.
+    #[error("co-simulation units have no name for this platform ({OS}, {ARCH})")]
     Platform,
     /// These bytes are no library of a unit of this version.
+    #[error("found no library of sprag-design {}", env!("CARGO_PKG_VERSION"))]
     Library,
     /// A history of the design cannot be read.
+    #[error("{path}: {1}", path = .0.display())]
     History(PathBuf, std::io::Error),
     /// The archive cannot be packed.
+    #[error("{0}")]
     Archive(String),
 }
-
-impl fmt::Display for NoUnit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoStart(why) => why.fmt(f),
-            Self::Platform => write!(f, "co-simulation units have no name for this platform ({OS}, {ARCH})"),
-            Self::Library => write!(f, "found no library of sprag-design {}", env!("CARGO_PKG_VERSION")),
-            Self::History(path, why) => write!(f, "{}: {why}", path.display()),
-            Self::Archive(why) => f.write_str(why),
-        }
-    }
-}
-
-impl std::error::Error for NoUnit {}
 
 /// Gives the bytes of a file.
 pub type HistoryReader<'a> = &'a dyn Fn(&Path) -> std::io::Result<Vec<u8>>;

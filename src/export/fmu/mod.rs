@@ -108,192 +108,60 @@ pub enum ElementQuantity {
 
 type Row = (ElementQuantity, &'static str, Role, VariableType, &'static str, Option<f64>, &'static str);
 
-/// Quantity, name, role, type, unit, value at the start, meaning.
-pub const QUANTITIES: [Row; 26] = {
-    use ElementQuantity as Q;
-    use Role::{Fixed, Input, Output, Time};
-    use VariableType::{Boolean, Integer, Real};
-    [
-        (Q::Time, "time", Time, Real, "s", None, "Time"),
-        (
-            Q::Torque(0),
-            "inner.torque",
-            Input,
-            Real,
-            "Nm",
-            Some(0.0),
-            "Torque of the flange on the inner race",
-        ),
-        (
-            Q::Torque(1),
-            "outer.torque",
-            Input,
-            Real,
-            "Nm",
-            Some(0.0),
-            "Torque of the flange on the outer race",
-        ),
-        (Q::Angle(0), "inner.angle", Output, Real, "rad", None, "Angle of the inner race"),
-        (Q::Speed(0), "inner.speed", Output, Real, "rad/s", None, "Speed of the inner race"),
-        (
-            Q::Acceleration(0),
-            "inner.acceleration",
-            Output,
-            Real,
-            "rad/s2",
-            None,
-            "Acceleration of the inner race",
-        ),
-        (Q::Angle(1), "outer.angle", Output, Real, "rad", None, "Angle of the outer race"),
-        (Q::Speed(1), "outer.speed", Output, Real, "rad/s", None, "Speed of the outer race"),
-        (
-            Q::Acceleration(1),
-            "outer.acceleration",
-            Output,
-            Real,
-            "rad/s2",
-            None,
-            "Acceleration of the outer race",
-        ),
-        (
-            Q::Normal(0),
-            "inner_contact.normal_force",
-            Output,
-            Real,
-            "N",
-            None,
-            "Normal force of a sprag on the inner race",
-        ),
-        (
-            Q::Friction(0),
-            "inner_contact.friction",
-            Output,
-            Real,
-            "",
-            None,
-            "Tangential over normal force there: the friction that is called on",
-        ),
-        (
-            Q::Slip(0),
-            "inner_contact.slip",
-            Output,
-            Integer,
-            "",
-            None,
-            "Sign of the slip velocity there, race less sprag; 0: it holds or is open",
-        ),
-        (
-            Q::Path(0),
-            "inner_contact.slip_path",
-            Output,
-            Real,
-            "m",
-            None,
-            "Path of slip there under contact since the start",
-        ),
-        (
-            Q::Normal(1),
-            "outer_contact.normal_force",
-            Output,
-            Real,
-            "N",
-            None,
-            "Normal force of a sprag on the outer race",
-        ),
-        (
-            Q::Friction(1),
-            "outer_contact.friction",
-            Output,
-            Real,
-            "",
-            None,
-            "Tangential over normal force there",
-        ),
-        (
-            Q::Slip(1),
-            "outer_contact.slip",
-            Output,
-            Integer,
-            "",
-            None,
-            "Sign of the slip velocity there; 0: it holds",
-        ),
-        (
-            Q::Path(1),
-            "outer_contact.slip_path",
-            Output,
-            Real,
-            "m",
-            None,
-            "Path of slip there since the start",
-        ),
-        (Q::Open, "open", Output, Boolean, "", None, "Whether the sprags stand off the inner race"),
-        (
-            Q::StartSpeed,
-            "start.speed",
-            Fixed,
-            Real,
-            "rad/s",
-            Some(0.0),
-            "Speed of the outer race at the start, and of the inner one unless it overruns",
-        ),
-        (
-            Q::StartOverrun,
-            "start.overrun",
-            Fixed,
-            Real,
-            "rad/s",
-            Some(0.0),
-            "How much faster the inner race is at the start; above 0: steady overrun",
-        ),
-        (
-            Q::StartTorque,
-            "start.torque",
-            Fixed,
-            Real,
-            "Nm",
-            Some(0.0),
-            "Engaging torque that the clutch carries in balance at the start, without overrun",
-        ),
-        (Q::StartAngle, "start.angle", Fixed, Real, "rad", Some(0.0), "Angle of the outer race at the start"),
-        (
-            Q::StartWithoutSpring,
-            "start.without_spring",
-            Fixed,
-            Boolean,
-            "",
-            Some(0.0),
-            "Whether the spring stays out of that balance",
-        ),
-        (
-            Q::Abutment,
-            "abutment.stiffness",
-            Fixed,
-            Real,
-            "Nm/rad",
-            Some(0.0),
-            "Stiffness that ties the outer race to what turns at start.speed; 0: free",
-        ),
-        (
-            Q::Tolerance,
-            "tolerance",
-            Fixed,
-            Real,
-            "",
-            Some(1e-8),
-            "Relative tolerance of a step of the integrator inside",
-        ),
-        (
-            Q::LongestStep,
-            "longest_step",
-            Fixed,
-            Real,
-            "s",
-            Some(0.0),
-            "Longest step of the integrator inside; 0: as long as the step of communication",
-        ),
-    ]
-};
+/// One row a quantity: what it is, name, role, type, unit, value at the start where it is set, meaning.
+macro_rules! quantities {
+    ($($quantity:expr, $name:literal, $role:ident $kind:ident $unit:literal $($start:literal)?, $meaning:literal;)+) => {
+        /// Quantity, name, role, type, unit, value at the start, meaning.
+        pub const QUANTITIES: [Row; [$($name),+].len()] = {
+            use ElementQuantity as Q;
+            [$((
+                $quantity,
+                $name,
+                Role::$role,
+                VariableType::$kind,
+                $unit,
+                [$(Some($start),)? None][0],
+                $meaning,
+            )),+]
+        };
+    };
+}
+
+quantities! {
+    Q::Time, "time", Time Real "s", "Time";
+    Q::Torque(0), "inner.torque", Input Real "Nm" 0.0, "Torque of the flange on the inner race";
+    Q::Torque(1), "outer.torque", Input Real "Nm" 0.0, "Torque of the flange on the outer race";
+    Q::Angle(0), "inner.angle", Output Real "rad", "Angle of the inner race";
+    Q::Speed(0), "inner.speed", Output Real "rad/s", "Speed of the inner race";
+    Q::Acceleration(0), "inner.acceleration", Output Real "rad/s2", "Acceleration of the inner race";
+    Q::Angle(1), "outer.angle", Output Real "rad", "Angle of the outer race";
+    Q::Speed(1), "outer.speed", Output Real "rad/s", "Speed of the outer race";
+    Q::Acceleration(1), "outer.acceleration", Output Real "rad/s2", "Acceleration of the outer race";
+    Q::Normal(0), "inner_contact.normal_force", Output Real "N", "Normal force of a sprag on the inner race";
+    Q::Friction(0), "inner_contact.friction", Output Real "",
+        "Tangential over normal force there: the friction that is called on";
+    Q::Slip(0), "inner_contact.slip", Output Integer "",
+        "Sign of the slip velocity there, race less sprag; 0: it holds or is open";
+    Q::Path(0), "inner_contact.slip_path", Output Real "m", "Path of slip there under contact since the start";
+    Q::Normal(1), "outer_contact.normal_force", Output Real "N", "Normal force of a sprag on the outer race";
+    Q::Friction(1), "outer_contact.friction", Output Real "", "Tangential over normal force there";
+    Q::Slip(1), "outer_contact.slip", Output Integer "", "Sign of the slip velocity there; 0: it holds";
+    Q::Path(1), "outer_contact.slip_path", Output Real "m", "Path of slip there since the start";
+    Q::Open, "open", Output Boolean "", "Whether the sprags stand off the inner race";
+    Q::StartSpeed, "start.speed", Fixed Real "rad/s" 0.0,
+        "Speed of the outer race at the start, and of the inner one unless it overruns";
+    Q::StartOverrun, "start.overrun", Fixed Real "rad/s" 0.0,
+        "How much faster the inner race is at the start; above 0: steady overrun";
+    Q::StartTorque, "start.torque", Fixed Real "Nm" 0.0,
+        "Engaging torque that the clutch carries in balance at the start, without overrun";
+    Q::StartAngle, "start.angle", Fixed Real "rad" 0.0, "Angle of the outer race at the start";
+    Q::StartWithoutSpring, "start.without_spring", Fixed Boolean "" 0.0, "Whether the spring stays out of that balance";
+    Q::Abutment, "abutment.stiffness", Fixed Real "Nm/rad" 0.0,
+        "Stiffness that ties the outer race to what turns at start.speed; 0: free";
+    Q::Tolerance, "tolerance", Fixed Real "" 1e-8, "Relative tolerance of a step of the integrator inside";
+    Q::LongestStep, "longest_step", Fixed Real "s" 0.0,
+        "Longest step of the integrator inside; 0: as long as the step of communication";
+}
 
 /// Value reference of the first number of the design file.
 pub const FIRST_KEY: u32 = 100;
