@@ -42,7 +42,7 @@ pub struct ArcBody {
     pub ends_mm: Option<[[f64; 2]; 2]>,
     /// Radius, mm.
     pub radius_mm: Option<f64>,
-    /// Its name.
+    /// Name of the arc or flank.
     pub surface: String,
 }
 
@@ -51,7 +51,7 @@ pub struct ArcBody {
 pub struct ExportedBody<'a> {
     /// Every arc and flank.
     pub arcs: Vec<ArcBody>,
-    /// Its length, bytes.
+    /// Length of the file, bytes.
     pub bytes: usize,
     /// Name of the format.
     pub format: &'a str,

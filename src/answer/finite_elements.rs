@@ -31,11 +31,11 @@ pub type ResultPoint<'a> = (&'a ResultRow, &'a Option<StaticPoint>);
 pub struct FiniteElementsBody<'a> {
     /// Which windups stand beside each other, and what the law is stated with.
     pub compared: String,
-    /// The same of forces and tangents, percent.
+    /// What the law is stated with of forces and tangents, percent.
     pub law_force_error_percent: f64,
     /// What the law is stated with of windup, percent.
     pub law_windup_error_percent: f64,
-    /// Size of its elements at the contacts, mm.
+    /// Size of the deck's elements at the contacts, mm.
     pub mesh_mm: f64,
     /// Each row, one of [`FiniteElements::points`].
     pub points: Rows<ResultPoint<'a>>,

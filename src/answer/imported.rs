@@ -69,7 +69,7 @@ pub struct InnerArcBody {
 
 /// Flanks as a design file has them.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub struct FlanksBody {
+pub struct FoundFlanks {
     /// Distance of the front one, mm.
     pub front_mm: f64,
     /// Tilt of the front one, rad.
@@ -86,7 +86,7 @@ pub struct FoundSprag {
     /// Distance of the centres of the outer and the first inner arc, mm.
     pub centre_distance_mm: f64,
     /// The flanks.
-    pub flanks: FlanksBody,
+    pub flanks: FoundFlanks,
     /// The inner arcs from first contact on.
     pub inner_arcs: Vec<InnerArcBody>,
     /// Radius of the outer arc, mm.
@@ -110,7 +110,7 @@ pub struct ImportedBody<'a> {
     pub template: &'a str,
     /// Where the new design is.
     pub written: Option<&'a str>,
-    /// The one that stands in the new design in place of the arcs.
+    /// The spiral that stands in the new design in place of the arcs.
     pub written_spiral: Option<&'static str>,
 }
 
@@ -129,7 +129,7 @@ impl FoundSprag {
             outer_radius_mm: 1e3 * found.outer_radius_m,
             centre_distance_mm: 1e3 * found.centre_distance_m,
             inner_arcs: found.inner_arcs.iter().map(arc).collect(),
-            flanks: FlanksBody {
+            flanks: FoundFlanks {
                 rear_mm: 1e3 * flanks.rear_m,
                 front_mm: 1e3 * flanks.front_m,
                 rear_tilt_rad: flanks.rear_tilt_rad,

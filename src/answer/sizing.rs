@@ -35,7 +35,7 @@ pub struct Sizing<'a> {
 pub struct SizingBody<'a> {
     /// Drag torque in overrun, N m.
     pub drag_torque_nm: Option<f64>,
-    /// Heat of that, W.
+    /// Heat of the drag in overrun, W.
     pub heat_w: Option<f64>,
     /// One row for each limit.
     pub margins: ByAlphabet<Vec<CheckRow>>,
@@ -45,7 +45,7 @@ pub struct SizingBody<'a> {
     pub outside_mm: f64,
     /// True: a design was found.
     pub sized: bool,
-    /// Speed at which the races slide on the sprags there, rev/min.
+    /// Speed at which the races slide on the sprags in overrun, rev/min.
     pub sliding_rpm: Option<f64>,
     /// Every race space tried, a row of [`tried`].
     pub tried: Rows<(usize, &'a Tried)>,
@@ -53,7 +53,7 @@ pub struct SizingBody<'a> {
     pub warnings: &'a [String],
     /// Width of the races, mm.
     pub width_mm: f64,
-    /// Where it was written.
+    /// Where the design was written.
     pub written: Option<&'a str>,
 }
 

@@ -3,7 +3,7 @@
 use super::capacity::axial_from_nm;
 use super::limits::{Limit, Of, When};
 use super::overrun::{overrun_at, overrun_moments};
-use super::row::{Beyond, Demand, Margin};
+use super::row::{BeyondEnd, Demand, Margin};
 use super::table::LIMITS;
 use super::{NoMargins, curve_at_rest};
 use crate::design::{Design, Limits};
@@ -236,7 +236,7 @@ pub(super) fn beyond(value: f64, torque: f64, end: f64) -> Demand {
         true => Demand::NoneSuffices,
         false => Demand::Overloaded {
             at_end: Some(value).filter(|v| v.is_finite()),
-            beyond: Beyond::Short(end / torque - 1.0),
+            beyond: BeyondEnd::Short(end / torque - 1.0),
         },
     }
 }

@@ -25,7 +25,7 @@ pub use load::{LoadState, ends_decide, load_state, load_state_at};
 pub use overrun::{
     LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
 };
-pub use row::{Beyond, Demand, Left, Margin, RESOLUTION, Rule, lowest_capacity};
+pub use row::{BeyondEnd, Demand, Left, Margin, RESOLUTION, Rule, lowest_capacity};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};

@@ -105,7 +105,7 @@ pub enum Demand {
         /// Demand at the end of the curve; `None` of friction, which is a demand of the whole scene.
         at_end: Option<f64>,
         /// What that leaves of the limit.
-        beyond: Beyond,
+        beyond: BeyondEnd,
     },
     /// Not looked at: a neighbour in a search that is not followed, so that a slope has to be found otherwise.
     Unknown,
@@ -126,7 +126,7 @@ impl Demand {
 
 /// What is left of a limit whose torque, or scene, goes beyond the end of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Beyond {
+pub enum BeyondEnd {
     /// As much as at the end, without a jump where the end passes the torque, as a search needs it.
     AsAtEnd,
     /// At most what the torque lacks, end/torque - 1.
@@ -204,9 +204,9 @@ impl Margin {
     pub fn left(&self) -> Left {
         match self.demand {
             Demand::Value(demand) => self.by_rule(demand),
-            Demand::Overloaded { at_end: Some(demand), beyond: Beyond::AsAtEnd } => self.by_rule(demand),
+            Demand::Overloaded { at_end: Some(demand), beyond: BeyondEnd::AsAtEnd } => self.by_rule(demand),
             // Of a torque of which nothing is carried nothing is left.
-            Demand::Overloaded { at_end: Some(demand), beyond: Beyond::Short(short) } if short > -1.0 => {
+            Demand::Overloaded { at_end: Some(demand), beyond: BeyondEnd::Short(short) } if short > -1.0 => {
                 match self.by_rule(demand) {
                     Left::Value(left) => Left::Value(left.min(short)),
                     Left::All => Left::Value(short),
@@ -283,7 +283,7 @@ impl Margin {
     /// Whether its torque lies beyond the end of the curve and nothing up to there breaks it: its margin is no more than what the torque
     /// lacks. The end of the curve itself is reached there.
     pub fn is_not_reached(&self) -> bool {
-        let Demand::Overloaded { at_end: Some(demand), beyond: Beyond::Short(short) } = self.demand else {
+        let Demand::Overloaded { at_end: Some(demand), beyond: BeyondEnd::Short(short) } = self.demand else {
             return false;
         };
         short > -1.0 && self.by_rule(demand).number() > short.max(RESOLUTION)

@@ -1,7 +1,7 @@
 //! Limits that follow from the scenarios: slip margin, contact margin, Hertz pressure.
 
 use super::limits::{Limit, Of};
-use super::row::{Beyond, Demand, Margin};
+use super::row::{BeyondEnd, Demand, Margin};
 use super::table::LIMITS;
 use crate::clutch::Scenario;
 use crate::design::Limits;
@@ -64,7 +64,7 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
     // What is demanded unless the run or the curve came to its end before.
     let demand = |known: Demand| match (not_computed, &overload) {
         (Some(why), _) => Demand::NotComputed(why),
-        (None, Some(_)) => Demand::Overloaded { at_end: known.value(), beyond: Beyond::Lost },
+        (None, Some(_)) => Demand::Overloaded { at_end: known.value(), beyond: BeyondEnd::Lost },
         (None, None) => known,
     };
     let row = |limit: &&'static Limit| {

@@ -2,7 +2,7 @@
 
 use super::limits::{Of, When};
 use super::load::{LoadState, not_carried};
-use super::row::{Beyond, Demand, Margin};
+use super::row::{BeyondEnd, Demand, Margin};
 use super::table::LIMITS;
 use crate::design::{Design, Limits};
 use crate::margin::Capacities;
@@ -51,7 +51,7 @@ pub fn unlike_margins(
             (Some((value, _)), false) => Demand::Value(value),
             (value, _) => Demand::Overloaded {
                 at_end: value.map(|(value, _)| value),
-                beyond: Beyond::Short((end_nm / torque - 1.0).min(0.0)),
+                beyond: BeyondEnd::Short((end_nm / torque - 1.0).min(0.0)),
             },
         };
         let over = |torque: f64| {

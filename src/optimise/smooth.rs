@@ -3,7 +3,7 @@
 
 use crate::design::{Design, Limits};
 use crate::margin::{
-    Beyond, Capacities, Demand, END_OF_PROFILE, LIMITS, LoadState, Margin, When, load_margins,
+    BeyondEnd, Capacities, Demand, END_OF_PROFILE, LIMITS, LoadState, Margin, When, load_margins,
 };
 use crate::profile::Outline;
 
@@ -31,7 +31,7 @@ pub(super) fn load_rows(
         let Demand::Overloaded { at_end, .. } = row.demand else { continue };
         let ends = row.limit == &END_OF_PROFILE;
         let shortfall = limits.peak_torque_nm.filter(|_| ends).map(|torque| profile_short(state, torque));
-        let beyond = shortfall.map_or(Beyond::AsAtEnd, Beyond::Short);
+        let beyond = shortfall.map_or(BeyondEnd::AsAtEnd, BeyondEnd::Short);
         row.demand = Demand::Overloaded { at_end, beyond };
     }
     rows

@@ -27,7 +27,7 @@ pub struct ReferenceBody {
     pub events: u64,
     /// Slip margin; null where no friction suffices.
     pub slip_margin: Option<f64>,
-    /// The same of the slip margin.
+    /// What the slip margin moves by at ten times the tolerance and twice the longest step.
     pub slip_margin_error: f64,
     /// Rotation of the inner race at the end, rad.
     pub theta_inner_end_rad: f64,

@@ -12,7 +12,7 @@ use serde::Serialize;
 pub struct FeedBody<'a> {
     /// By how much a stroke may feed more or less than slow ones, deg.
     pub allowed_deg: f64,
-    /// Code of the limit that sets it.
+    /// Code of the limit that sets the peak torque that is borne.
     pub bears_by: Option<&'a str>,
     /// Peak torque that every limit bears, N m.
     pub bears_nm: Option<f64>,

@@ -47,7 +47,7 @@ pub struct LifeBody<'a> {
     pub held: bool,
     /// By how much the largest load may grow until the inner contact is indented, a factor.
     pub indentation_inner: f64,
-    /// The same of the outer contact.
+    /// By how much the largest load may grow until the outer contact is indented, a factor.
     pub indentation_outer: f64,
     /// Whether the largest torque indents a contact.
     pub indents: bool,

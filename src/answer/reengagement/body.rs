@@ -19,11 +19,11 @@ pub struct BorneBody {
 /// Where the slip itself throws the sprags out of reach.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct ThrownBody {
-    /// How long after the slip begins, ms.
+    /// How long after the slip begins they are, ms.
     pub at_ms: f64,
     /// Speed of the outer race, rev/min.
     pub outer_rpm: f64,
-    /// Path of slip until then, mm.
+    /// Path of slip until the sprags are thrown out, mm.
     pub path_mm: f64,
     /// Speed of the races against one another, rev/min.
     pub speed_rpm: f64,
@@ -32,7 +32,7 @@ pub struct ThrownBody {
 /// Keys of `reengage`.
 #[derive(Debug, Clone, Serialize)]
 pub struct ReengagementBody<'a> {
-    /// Code of the limit that sets it.
+    /// Code of the limit that sets the peak torque that is borne.
     pub bears_by: Option<&'a str>,
     /// Energy that the windup takes up from the torque carried to the one that the limits bear, J.
     pub bears_j: Option<f64>,
@@ -42,7 +42,7 @@ pub struct ReengagementBody<'a> {
     pub blows: Rows<&'a Blow>,
     /// What would be borne; null where all is, or where it is not known.
     pub borne: Option<BorneBody>,
-    /// The same to the end of the curve, J.
+    /// Energy that the windup takes up from the torque carried to the end of the curve, J.
     pub end_of_curve_j: Option<f64>,
     /// Friction while it slips.
     pub friction: f64,

@@ -41,11 +41,11 @@ pub enum EvaluatedLine {
 /// A variable of a problem, in the unit of its name.
 #[derive(Debug, Clone, Serialize)]
 pub struct VariableBody<'a> {
-    /// Its upper bound.
+    /// Upper bound.
     pub max: f64,
-    /// Its lower bound.
+    /// Lower bound.
     pub min: f64,
-    /// Its name.
+    /// Name.
     pub name: &'a str,
     /// Where a search starts.
     pub start: f64,
@@ -60,7 +60,7 @@ pub struct ProblemBody<'a> {
     pub aim: &'static str,
     /// Name of the design.
     pub design: &'a str,
-    /// SHA-256 of its file.
+    /// SHA-256 of the design's file.
     pub design_hash: &'a str,
     /// Names of the limits.
     pub limits: Option<Vec<String>>,
@@ -70,7 +70,7 @@ pub struct ProblemBody<'a> {
     pub tool: &'static str,
     /// The variables, in the order of a vector.
     pub variables: Vec<VariableBody<'a>>,
-    /// Its version.
+    /// Version of the program.
     pub version: &'static str,
 }
 

@@ -30,7 +30,7 @@ pub struct SharingBody<'a> {
     pub allowed_mpa: Option<f64>,
     /// What follows the end; null where nothing ends it.
     pub beyond: Option<BeyondEndBody<'a>>,
-    /// What ends it there.
+    /// What ends it at the torque that is still carried at every place.
     pub end_reason: Option<String>,
     /// Torque that is carried at every place, N m, where that is less than the one asked for.
     pub end_torque_nm: Option<f64>,
@@ -38,7 +38,7 @@ pub struct SharingBody<'a> {
     pub engagement: Rows<&'a (f64, Result<Shared, NotShared>)>,
     /// Mean growth of the inner track and amplitudes of its radius in each harmonic from the second on, um.
     pub harmonics_inner_um: Vec<f64>,
-    /// The same of the outer track.
+    /// Mean growth of the outer track and amplitudes of its radius in each harmonic from the second on, um.
     pub harmonics_outer_um: Vec<f64>,
     /// Whether every sprag that carries is within its limits, over the turn.
     pub held: bool,

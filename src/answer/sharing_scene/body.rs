@@ -15,11 +15,11 @@ pub type SpragRow<'a> = (usize, &'a OneSprag, Option<&'a SpragCourse>);
 pub struct SharingSceneBody<'a> {
     /// How far the axes were apart at most, um.
     pub axes_apart_max_um: Option<f64>,
-    /// Its frequency on them, Hz.
+    /// Frequency of the mass that swings on the bearings, Hz; null: they do not give.
     pub bearing_frequency_hz: Option<f64>,
     /// Mass that swings on the bearings, kg; null: they do not give.
     pub bearing_mass_kg: Option<f64>,
-    /// When, s.
+    /// When the bearings hold most, s.
     pub bearing_max_at_s: Option<f64>,
     /// Largest force that the bearings hold, N; null: the axes are one.
     pub bearing_max_n: Option<f64>,
@@ -35,13 +35,13 @@ pub struct SharingSceneBody<'a> {
     pub energy_through_j: f64,
     /// Changes of mode.
     pub events: u64,
-    /// When, s.
+    /// When the first sprag slips under load after it has caught, s.
     pub first_slip_at_s: Option<f64>,
-    /// The first of them, from 1.
+    /// The sprag that does, from 1.
     pub first_slip_sprag: Option<usize>,
     /// Why the run did not come to its end, and what would let it.
     pub given_up: Option<String>,
-    /// Those of them that lost contact for good.
+    /// Sprags that lost contact for good beyond the end of their curve.
     pub gone: usize,
     /// Whether the scene came to its end and no sprag slipped or went over.
     pub held: bool,
@@ -51,15 +51,15 @@ pub struct SharingSceneBody<'a> {
     pub kinds: usize,
     /// Largest share of the load, over the mean of all places.
     pub largest_share: Option<f64>,
-    /// When, s.
+    /// When the share of the load is largest, s.
     pub largest_share_at_s: Option<f64>,
-    /// The sprag that has it, from 1.
+    /// The sprag that has the largest share, from 1.
     pub largest_share_sprag: Option<usize>,
     /// Lowest frequency of the inner race as a ring, Hz; null: the races do not bend.
     pub lowest_mode_inner_hz: Option<f64>,
-    /// The same of the outer race.
+    /// Lowest frequency of the outer race as a ring, Hz.
     pub lowest_mode_outer_hz: Option<f64>,
-    /// By how much the largest normal force does, of itself.
+    /// By how much the largest normal force differs between two runs, of itself.
     pub normal_max_error: Option<f64>,
     /// Sprags that went beyond the end of their curve.
     pub over: usize,
@@ -73,9 +73,9 @@ pub struct SharingSceneBody<'a> {
     pub seed: Option<u64>,
     /// Largest share at rest under the largest torque with races that bend.
     pub share_at_rest: Option<f64>,
-    /// The same with races that stay round.
+    /// Largest share at rest under the largest torque with races that stay round.
     pub share_at_rest_round: Option<f64>,
-    /// How many slip under load after they have caught.
+    /// How many sprags slip under load after they have caught.
     pub slipping: usize,
     /// Every sprag.
     pub sprags: Rows<SpragRow<'a>>,
@@ -83,7 +83,7 @@ pub struct SharingSceneBody<'a> {
     pub steps: u64,
     /// Why the run ended.
     pub stop: &'static str,
-    /// By how much that of the inner race differs between two runs, rad.
+    /// By how much the rotation of the inner race differs between two runs, rad.
     pub theta_inner_error_rad: Option<f64>,
     /// Rotation of the inner race at the end, rad.
     pub theta_inner_rad: f64,

@@ -33,7 +33,7 @@ pub struct MapBody<'a> {
     pub deciding: Rows<&'a (String, u64)>,
     /// Name of the design; null: the table does not say.
     pub design: Option<&'a str>,
-    /// SHA-256 of its file.
+    /// SHA-256 of the design's file.
     pub design_hash: Option<&'a str>,
     /// Points that hold every limit.
     pub held: u64,
@@ -47,7 +47,7 @@ pub struct MapBody<'a> {
     pub variables: Rows<(usize, &'a MapVariable)>,
     /// The answer in a sentence.
     pub verdict: String,
-    /// Its version.
+    /// Version of the program.
     pub version: &'static str,
     /// Points without a clutch.
     pub without_clutch: u64,

@@ -6,7 +6,7 @@ use crate::margin::Capacities;
 use crate::margin::limits::{Limit, Of};
 use crate::margin::load::{beyond, not_carried};
 use crate::margin::table::{END_OF_PROFILE, LIMITS};
-use crate::margin::{Beyond, Demand, Margin};
+use crate::margin::{BeyondEnd, Demand, Margin};
 use crate::numeric::root;
 
 /// Torques looked at between none and the end, for what is reached on the way: a choice.
@@ -74,7 +74,7 @@ pub fn run_out_margins(
 fn nothing_found(torque: f64, end: f64) -> Demand {
     match end >= torque {
         true => Demand::MoreThan(0.0),
-        false => Demand::Overloaded { at_end: Some(0.0), beyond: Beyond::Lost },
+        false => Demand::Overloaded { at_end: Some(0.0), beyond: BeyondEnd::Lost },
     }
 }
 
