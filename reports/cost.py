@@ -6,6 +6,7 @@ usage: cost.py BUILT OUT.csv COMMAND [BEFORE [NAME]]
 import csv
 import json
 import os
+import re
 import resource
 import statistics
 import subprocess
@@ -23,6 +24,8 @@ BINARIES = ([("before", BEFORE)] if BEFORE else []) + [("now", NOW)]
 DESIGNS = {"roller": "designs/huang2017-multi-arc.toml", "elastic": "designs/huang2017-elastic.toml"}
 PROBLEMS = [f"tests/optimise/designs/{p}.toml" for p in ("a-huang-at-rest", "b-huang-at-speed", "c-24-sprags", "d-indexing-elastic",
                                                             "e-starter-eight")]
+# What an answer says of its own run time, and of cases by it.
+RUN_TIMES = re.compile(r'"[a-z_]*(?:time|cpu)[a-z_]*":[-+0-9.e]+')
 # Least limit that still holds, as the program has it.
 RESOLUTION = 1e-8
 ROUNDS = 5
@@ -279,22 +282,30 @@ def tolerances(name, design):
 
 def scaling():
     design = DESIGNS["roller"]
-    answers, wall, memory = {}, {1: [], 2: []}, {}
-    for _ in range(3):
-        for threads in wall:
-            out, seconds, _, _ = measured(NOW, "evaluate", design, "--sobol", "3000", "--quiet", "--threads", str(threads))
-            answers.setdefault(threads, out)
-            wall[threads].append(seconds)
-    say("scaling", "roller", "now", "2 threads", "the same bytes as on one", "yes" if answers[1] == answers[2] else "NO")
-    say("scaling", "roller", "now", "2 threads", "bytes", len(answers[1]))
-    for threads, seconds in wall.items():
-        say("scaling", "roller", "now", f"{threads} thread{'s' * (threads > 1)}", "3000 points", statistics.median(seconds), "s")
-    say("scaling", "roller", "now", "2 threads", "times as fast as one, median of pairs",
-        statistics.median(a / b for a, b in zip(wall[1], wall[2])))
+    jobs = {"sweep of 3000 points": ("evaluate", design, "--sobol", "3000"),
+            "search, eight variables": ("optimize", PROBLEMS[-1], "--json", "-o", "-"),
+            "resonance map, 20 x 20": ("resonance", design, "--scenario", "high-6", "--frequency", "20:400", "--amplitude", "1:20",
+                                       "--points", "20x20", "--json"),
+            "stability map, 100 cases": ("accuracy", design, "--scenario", "high-10", "--cases", "100", "--json")}
+    with tempfile.TemporaryDirectory() as folder:
+        for job, words in jobs.items():
+            words = [os.path.join(folder, "better.toml") if w == "-" else w for w in words]
+            answers, wall = {}, {1: [], 2: []}
+            for _ in range(3):
+                for threads in wall:
+                    more = ["--force"] * ("-o" in words)
+                    out, seconds, _, _ = measured(NOW, *words, *more, "--quiet", "--threads", str(threads))
+                    answers[threads] = RUN_TIMES.sub("", out)
+                    wall[threads].append(seconds)
+            say("scaling", job, "now", "2 threads", "the same bytes as on one", "yes" if answers[1] == answers[2] else "NO")
+            for threads, seconds in wall.items():
+                say("scaling", job, "now", f"{threads} thread{'s' * (threads > 1)}", "time", statistics.median(seconds), "s")
+            say("scaling", job, "now", "2 threads", "times as fast as one, median of pairs",
+                statistics.median(a / b for a, b in zip(wall[1], wall[2])))
     for count in (300, 3000):
         for threads in (1, 2):
             _, _, _, memory = measured(NOW, "evaluate", design, "--sobol", str(count), "--quiet", "--threads", str(threads))
-            say("scaling", "roller", "now", f"{count} points, {threads} thread{'s' * (threads > 1)}", "largest memory", memory, "MB")
+            say("scaling", "sweep", "now", f"{count} points, {threads} thread{'s' * (threads > 1)}", "largest memory", memory, "MB")
 
 
 def main():

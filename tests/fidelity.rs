@@ -2,7 +2,7 @@
 
 use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::Design;
-use sprag_design::fidelity::{Planned, plan, simulate};
+use sprag_design::fidelity::{Planned, Terms, plan, simulate};
 use sprag_design::scenario::Settings;
 use std::path::Path;
 
@@ -15,7 +15,7 @@ fn designs() -> Vec<Design> {
 }
 
 fn both(scenario: &Scenario) -> [Planned; 2] {
-    [false, true].map(|full| simulate(scenario, &Settings::default(), full).unwrap())
+    [Terms::Felt, Terms::All].map(|terms| simulate(scenario, &Settings::default(), terms).unwrap())
 }
 
 /// Full minus reduced stays below the costs that were stated before the run, beside the errors of both.

@@ -3,7 +3,7 @@
 use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::Design;
 use sprag_design::dynamics::{History, Stop};
-use sprag_design::fidelity;
+use sprag_design::fidelity::{self, Terms};
 use sprag_design::scenario::{Settings, prepare, simulate};
 use std::path::Path;
 
@@ -39,7 +39,7 @@ fn the_limits_of_work_grow_with_the_scene() {
 #[test]
 fn a_run_that_meets_its_limit_says_which_and_is_not_repeated_on_the_whole_curve() {
     let few = Settings { most_steps: Some(60), ..Settings::default() };
-    let planned = fidelity::simulate(&scene("high-10"), &few, false).unwrap();
+    let planned = fidelity::simulate(&scene("high-10"), &few, Terms::Felt).unwrap();
     let s = &planned.simulation;
     let gave_up = s.gave_up.unwrap();
     assert_eq!((s.stop, gave_up.stop, gave_up.limit), (Stop::StepLimit, Stop::StepLimit, Some(60)));

@@ -198,14 +198,15 @@ fn with_radii(file: &str, more: &str) -> String {
 #[test]
 fn an_evaluation_of_a_search_is_one_of_check() {
     let roller = std::fs::read_to_string(MULTI).unwrap();
+    // Steps of a run do not see where an edge of the patch passes a junction, which law `elastic` feels.
     let cases = [
-        ("roller", roller, 40),
-        ("elastic", multi("elastic"), 20),
-        ("hertz", multi("hertz"), 10),
-        ("starter", with_radii("designs/starter.toml", ""), 10),
-        ("FE check", with_radii("designs/fe-check-24.toml", CRANKING), 10),
+        ("roller", roller, 40, 1e-6),
+        ("elastic", multi("elastic"), 80, 2e-6),
+        ("hertz", multi("hertz"), 10, 1e-6),
+        ("starter", with_radii("designs/starter.toml", ""), 10, 1e-6),
+        ("FE check", with_radii("designs/fe-check-24.toml", CRANKING), 10, 1e-6),
     ];
-    for (name, text, count) in cases {
+    for (name, text, count, stated) in cases {
         let design = Design::parse(&text, name).unwrap_or_else(|e| panic!("{name}: {e}"));
         let task = design.optimize.clone().unwrap();
         let names: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
@@ -225,7 +226,7 @@ fn an_evaluation_of_a_search_is_one_of_check() {
                 .zip(sharp.objectives.iter().chain(&sharp.limits));
             for (i, (a, b)) in pairs.enumerate() {
                 let off = (a - b).abs() / b.abs().max(1.0);
-                assert!(off < 1e-6, "{name}: margin {i} at {x:?}: {a} {b}");
+                assert!(off < stated, "{name}: margin {i} at {x:?}: {a} {b}");
                 worst = worst.max(off);
             }
             compared += 1;

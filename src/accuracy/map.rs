@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::cases::Case;
 use crate::clutch::Clutch;
 use crate::dynamics::Stop;
-use crate::fidelity;
+use crate::fidelity::{self, Terms};
 use crate::follow::{Follow, News};
 use crate::scenario::{FIGURES, NoScenario, Settings, Simulation, Verdict};
 
@@ -163,7 +163,7 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
             follow: limit.follow.unseen(),
             ..Settings::default()
         };
-        fidelity::simulate(&scenario, &settings, false).map(|p| p.simulation)
+        fidelity::simulate(&scenario, &settings, Terms::Felt).map(|p| p.simulation)
     };
     let answers = [go(limit.tolerance), go(0.5 * limit.tolerance)];
     let outcomes = [outcome(&answers[0]), outcome(&answers[1])];

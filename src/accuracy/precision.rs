@@ -6,7 +6,9 @@ use crate::clutch::Scenario;
 use crate::dynamics::{PublishedSettings, Run, RunSettings, Stop, published, run};
 use crate::fidelity::{self, Plan};
 use crate::follow::{Follow, News};
-use crate::scenario::{NoScenario, Prepared, Settings, Simulation, demand, prepare, simulate_prepared};
+use crate::scenario::{
+    NoScenario, Prepared, Settings, Simulation, Terms, demand, prepare, simulate_prepared,
+};
 
 /// What is compared.
 #[derive(Debug, Clone)]
@@ -162,7 +164,7 @@ pub fn precision(scenario: &Scenario, settings: &PrecisionSettings) -> Result<Op
         return Ok(None);
     }
     let Plan { left_out, .. } = plan;
-    let rolls = bench.answer(&bench.reduced, 1e-6, true).rolled;
+    let rolls = bench.answer(&bench.reduced, 1e-6, Terms::Felt).rolled;
     let law = rolls.then_some("friction law in slip");
     Ok(Some(Precision {
         scene: scenario.name.clone(),
@@ -221,9 +223,9 @@ impl Bench<'_> {
         (self.run(tolerance, per_period), demand(&self.full, &s).slip_margin)
     }
 
-    fn answer(&self, prepared: &Prepared, tolerance: f64, reduced: bool) -> Simulation {
+    fn answer(&self, prepared: &Prepared, tolerance: f64, terms: Terms) -> Simulation {
         let s = Settings { tolerance, follow: self.settings.follow.unseen(), ..Settings::default() };
-        simulate_prepared(prepared, &s, reduced)
+        simulate_prepared(prepared, &s, terms)
     }
 
     fn point(&self, method: Scheme, setting: f64, reference: (f64, Option<f64>)) -> WorkPoint {
@@ -254,8 +256,8 @@ impl Bench<'_> {
                 let (run, seconds) = timed(again, || self.run(setting, STEPS));
                 bare(&run, seconds)
             }
-            Scheme::Full => whole(timed(again, || self.answer(&self.full, setting, false))),
-            Scheme::Reduced => whole(timed(again, || self.answer(&self.reduced, setting, true))),
+            Scheme::Full => whole(timed(again, || self.answer(&self.full, setting, Terms::All))),
+            Scheme::Reduced => whole(timed(again, || self.answer(&self.reduced, setting, Terms::Felt))),
             Scheme::Published(band_m_s) => {
                 let p = &self.full;
                 let s = PublishedSettings { duration_s: p.duration_s, step_s: setting, band_m_s, samples: 0 };

@@ -26,6 +26,8 @@ pub use tolerances::Tolerances;
 
 use crate::material::Material;
 use crate::profile::{Brink, Flanks, Outline, Profile, ProfileError, Spiral};
+use schemars::JsonSchema;
+use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// Where the sprag's mass, inertia and centroid come from.
@@ -120,7 +122,8 @@ pub struct Eccentricity {
 
 /// The race that an offset of the axes stays with. Sprags roll on along both while they wind up, and so along a gap that
 /// narrows or widens.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Carrier {
     /// Its track runs out, or it stands and the bearings are off centre.
     #[default]
@@ -163,9 +166,11 @@ pub struct Friction {
 }
 
 /// Stress state along the axis for the elastic law.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum StressState {
     /// As a body of finite length is: plane strain near the contact, plane stress farther away and in the rings.
+    #[default]
     Layer,
     /// Plane strain throughout, rings too (very long clutches; two-dimensional finite elements).
     PlaneStrain,

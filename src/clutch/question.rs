@@ -7,6 +7,8 @@
 //! `scenario::prepare`.
 
 use super::{Clutch, DriveInertia};
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// What happens to the clutch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +73,8 @@ pub enum ScenarioKind {
 }
 
 /// The equilibrium that a scene under load starts from.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Start {
     /// With the energizing spring, which presses the sprags further in than the torque alone.
     #[default]

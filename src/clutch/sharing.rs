@@ -2,6 +2,9 @@
 //!
 //! In: nothing. Out: [`Sharing`], SI. Absent: what they carry then (`sharing`). Equations: none.
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 /// Deviations of the sprags: drawn within bounds from a seed, and given by number.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sharing {
@@ -27,7 +30,8 @@ pub struct Sharing {
 }
 
 /// How sprags stand when torque begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Standing {
     /// Its own spring has turned each one until it touches both races: all take load from one windup on.
     #[default]

@@ -3,129 +3,77 @@
 //! In: nothing. Out: [`Objective`], [`Optimize`]. Absent: how one is computed (`optimise`). Equations: none.
 
 use super::Limits;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use std::borrow::Cow;
-
-/// What is made better, every margin being a limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Objective {
-    /// The smallest slip margin mu_s/mu_req - 1 over the scenarios is maximised.
-    SlipMargin,
-    /// The peak torque, with the nominal torque in proportion, up to which every static limit holds is maximised.
-    TorqueCapacity,
-    /// The largest Hertz pressure at peak torque is minimised.
-    PeakPressure,
-    /// The windup at nominal torque is minimised.
-    Windup,
-    /// The largest relative departure from a table of windups is minimised.
-    StiffnessCurve,
-    /// The smallest contact margin over the scenarios is maximised.
-    ContactMargin,
-    /// The speed of the outer race up to which the sprags keep contact in overrun is maximised.
-    KeepContact,
-    /// That speed is minimised: the sprags lift off early.
-    LiftOff,
-    /// The larger of the drag torques in overrun at rest and at the speed to which contact is to be kept is minimised.
-    Drag,
-    /// The mass of sprags and races is minimised.
-    Mass,
-    /// The width of the races is minimised.
-    Width,
-    /// The outer diameter is minimised.
-    OutsideDiameter,
-}
 
 /// What is said of an objective.
 struct Facts {
     name: &'static str,
     unit: &'static str,
     words: &'static str,
-    /// +1 where more is better, -1 where less is.
     sense: f64,
-    /// What a gain is one of, behind its number and unit.
     gain: &'static str,
-    /// A range of its unit that counts as 1 beside margins.
     span: f64,
 }
 
-/// One row an objective, in the order of [`Objective::ALL`].
-const FACTS: [Facts; 12] = [
-    facts("slip-margin", "", "least slip margin", 1.0, "slip margin", 1.0),
-    facts("torque-capacity", "Nm", "torque capacity", 1.0, "of torque capacity", 1.0),
-    facts("peak-pressure", "MPa", "largest Hertz pressure at peak torque", -1.0, "less pressure", 1000.0),
-    facts("windup", "deg", "windup at nominal torque", -1.0, "less windup", 1.0),
-    facts(
-        "stiffness-curve",
-        "",
-        "largest departure from the target windup",
-        -1.0,
-        "less departure from the target",
-        1.0,
-    ),
-    facts("contact-margin", "", "least contact margin of the scenarios", 1.0, "contact margin", 1.0),
-    facts(
-        "keep-contact",
-        "rpm",
-        "speed of the outer race up to which the sprags keep contact in overrun",
-        1.0,
-        "more",
-        1000.0,
-    ),
-    facts(
-        "lift-off",
-        "rpm",
-        "speed of the outer race at which the sprags lift off in overrun",
-        -1.0,
-        "less",
-        1000.0,
-    ),
-    facts(
-        "drag",
-        "Nm",
-        "drag torque in overrun, the larger of slow and at the speed to which contact is kept",
-        -1.0,
-        "less drag",
-        0.1,
-    ),
-    facts("mass", "g", "mass of sprags and races", -1.0, "less mass", 100.0),
-    facts("width", "mm", "width of the races", -1.0, "less width", 10.0),
-    facts("outside-diameter", "mm", "outer diameter", -1.0, "less diameter", 10.0),
-];
+/// Makes of each row a variant with its name in the file and what is said of it.
+macro_rules! objectives {
+    ($($(#[$doc:meta])+ $variant:ident: $name:tt, $unit:tt, $words:tt, $sense:expr, $gain:tt, $span:expr;)+) => {
+        /// What is made better, every margin being a limit.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+        pub enum Objective {
+            $($(#[$doc])+ #[serde(rename = $name)] $variant,)+
+        }
 
-const fn facts(
-    name: &'static str,
-    unit: &'static str,
-    words: &'static str,
-    sense: f64,
-    gain: &'static str,
-    span: f64,
-) -> Facts {
-    Facts { name, unit, words, sense, gain, span }
+        impl Objective {
+            /// All of them, in the order of the file format.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
+
+            fn facts(self) -> Facts {
+                match self {
+                    $(Self::$variant => {
+                        Facts { name: $name, unit: $unit, words: $words, sense: $sense, gain: $gain, span: $span }
+                    })+
+                }
+            }
+        }
+    };
+}
+
+// Name, unit, words, +1 where more is better and -1 where less is, what a gain is one of, the span that weighs as a margin of 1.
+objectives! {
+    /// The smallest slip margin mu_s/mu_req - 1 over the scenarios is maximised.
+    SlipMargin: "slip-margin", "", "least slip margin", 1.0, "slip margin", 1.0;
+    /// The peak torque, with the nominal torque in proportion, up to which every static limit holds is maximised.
+    TorqueCapacity: "torque-capacity", "Nm", "torque capacity", 1.0, "of torque capacity", 1.0;
+    /// The largest Hertz pressure at peak torque is minimised.
+    PeakPressure: "peak-pressure", "MPa",
+        "largest Hertz pressure at peak torque", -1.0, "less pressure", 1000.0;
+    /// The windup at nominal torque is minimised.
+    Windup: "windup", "deg", "windup at nominal torque", -1.0, "less windup", 1.0;
+    /// The largest relative departure from a table of windups is minimised.
+    StiffnessCurve: "stiffness-curve", "",
+        "largest departure from the target windup", -1.0, "less departure from the target", 1.0;
+    /// The smallest contact margin over the scenarios is maximised.
+    ContactMargin: "contact-margin", "", "least contact margin of the scenarios", 1.0, "contact margin", 1.0;
+    /// The speed of the outer race up to which the sprags keep contact in overrun is maximised.
+    KeepContact: "keep-contact", "rpm",
+        "speed of the outer race up to which the sprags keep contact in overrun", 1.0, "more", 1000.0;
+    /// That speed is minimised: the sprags lift off early.
+    LiftOff: "lift-off", "rpm",
+        "speed of the outer race at which the sprags lift off in overrun", -1.0, "less", 1000.0;
+    /// The larger of the drag torques in overrun at rest and at the speed to which contact is to be kept is minimised.
+    Drag: "drag", "Nm",
+        "drag torque in overrun, the larger of slow and at the speed to which contact is kept", -1.0, "less drag", 0.1;
+    /// The mass of sprags and races is minimised.
+    Mass: "mass", "g", "mass of sprags and races", -1.0, "less mass", 100.0;
+    /// The width of the races is minimised.
+    Width: "width", "mm", "width of the races", -1.0, "less width", 10.0;
+    /// The outer diameter is minimised.
+    OutsideDiameter: "outside-diameter", "mm", "outer diameter", -1.0, "less diameter", 10.0;
 }
 
 impl Objective {
-    /// All of them, in the order of the file format.
-    pub const ALL: [Self; 12] = [
-        Self::SlipMargin,
-        Self::TorqueCapacity,
-        Self::PeakPressure,
-        Self::Windup,
-        Self::StiffnessCurve,
-        Self::ContactMargin,
-        Self::KeepContact,
-        Self::LiftOff,
-        Self::Drag,
-        Self::Mass,
-        Self::Width,
-        Self::OutsideDiameter,
-    ];
-
-    fn facts(self) -> &'static Facts {
-        &FACTS[self as usize]
-    }
-
     /// Name in files and on the command line.
     pub fn name(self) -> &'static str {
         self.facts().name
@@ -154,16 +102,6 @@ impl Objective {
     /// A range of its unit that weighs as much as a margin of 1.
     pub fn span(self) -> f64 {
         self.facts().span
-    }
-}
-
-impl JsonSchema for Objective {
-    fn schema_name() -> Cow<'static, str> {
-        "Objective".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "string", "enum": Self::ALL.map(Self::name) })
     }
 }
 
@@ -258,19 +196,5 @@ impl Optimize {
         let (i, (v, x)) =
             self.variables.iter().zip(x).enumerate().find(|(_, (v, x))| !(v.min..=v.max).contains(x))?;
         Some(format!("x[{i}], {} = {x}, lies outside its bounds {} to {}", v.name, v.min, v.max))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_row_of_the_table_is_that_of_its_objective() {
-        for (k, o) in Objective::ALL.into_iter().enumerate() {
-            assert_eq!(o as usize, k);
-            let read: Objective = serde_json::from_value(o.name().into()).unwrap();
-            assert_eq!(read, o);
-        }
     }
 }

@@ -3,7 +3,7 @@
 use super::plan::{Plan, Term, plan};
 use crate::clutch::Scenario;
 use crate::dynamics::{Jump, Stop};
-use crate::scenario::{NoScenario, Prepared, Settings, Simulation, prepare, simulate_prepared};
+use crate::scenario::{NoScenario, Prepared, Settings, Simulation, Terms, prepare, simulate_prepared};
 use crate::wedge::asks_for_slices;
 
 /// A simulation with what it left out.
@@ -19,25 +19,25 @@ pub struct Planned {
     pub kept: Vec<Term>,
 }
 
-/// Simulate `scenario`, with everything if `full`, else without what it cannot feel.
+/// Simulate `scenario` with these terms of the equations.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start.
-pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<Planned, NoScenario> {
+pub fn simulate(scenario: &Scenario, settings: &Settings, terms: Terms) -> Result<Planned, NoScenario> {
     let whole = |settings: &Settings| {
         let prepared = prepare(scenario)?;
-        let simulation = simulate_prepared(&prepared, settings, false);
+        let simulation = simulate_prepared(&prepared, settings, Terms::All);
         let left_out = simulation.jump.iter().map(repeated).collect();
         Ok(Planned { prepared, simulation, left_out, kept: Vec::new() })
     };
-    if full {
+    if terms == Terms::All {
         return whole(&Settings { every_period: true, ..settings.clone() });
     }
     // What a shortened curve does not carry, the whole one may.
     let Ok((Plan { reduction, mut left_out, mut kept }, prepared)) = plan(scenario, None) else {
         return whole(settings);
     };
-    let simulation = simulate_prepared(&prepared, settings, true);
+    let simulation = simulate_prepared(&prepared, settings, Terms::Felt);
     if simulation.rolled {
         left_out.push(friction_law(&simulation, &prepared));
     }

@@ -4,13 +4,11 @@
 //! single keys ([`super::design_file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
 //! at first contact is asked of `profile`.
 
-use super::contact_file::{ContactFile, StateFile};
+use super::contact_file::ContactFile;
 use super::design_file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
 use super::{axial, eccentricity, geometry, lubrication_file, running, steels};
-use crate::clutch::{
-    Clutch, ContactLaw, Friction, LawName, Materials, ROLLER_COEFFICIENT, Races, Spring, StressState,
-};
+use crate::clutch::{Clutch, ContactLaw, Friction, LawName, Materials, ROLLER_COEFFICIENT, Races, Spring};
 use crate::design::{LIMIT_KEYS, LimitsFile};
 use crate::design::{Limits, m};
 use std::f64::consts::FRAC_PI_2;
@@ -89,8 +87,8 @@ fn races(file: &RacesFile, materials: Option<&Materials>, out: &mut Findings) ->
         outer_inertia_kg_m2: file.outer_inertia_kg_m2.unwrap_or_else(|| ring(radii[2].1, radii[3].1, outer)),
         viscous_damping_nm_s_per_rad: file.viscous_damping_nm_s_per_rad,
         eccentricity: file.eccentricity.as_ref().map(eccentricity::si),
-        inner_rim: running::rim(file.inner_rim),
-        outer_rim: running::rim(file.outer_rim),
+        inner_rim: file.inner_rim,
+        outer_rim: file.outer_rim,
     })
 }
 
@@ -143,11 +141,7 @@ fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
             return None;
         }
     }
-    let state = match file.stress_state {
-        None | Some(StateFile::Layer) => StressState::Layer,
-        Some(StateFile::PlaneStrain) => StressState::PlaneStrain,
-        Some(StateFile::PlaneStress) => StressState::PlaneStress,
-    };
+    let state = file.stress_state.unwrap_or_default();
     if file.roller_coefficient.is_none() && reads(file.law, "roller_coefficient") {
         out.refuse(
             &["contact.roller_coefficient", "contact.law"],

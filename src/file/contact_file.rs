@@ -3,7 +3,7 @@
 //! In: TOML. Out: structs in the file's units, ranges stated in their schema. Absent: rules that join keys
 //! ([`super::check`], [`super::axial`]). Equations: none.
 
-use crate::clutch::LawName;
+use crate::clutch::{LawName, StressState};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -34,9 +34,9 @@ pub(super) struct ContactFile {
     #[schemars(extend("minimum" = 0, "maximum" = 10))]
     pub hunt_crossley_s_per_m: f64,
     /// Stress state of the elastic law; absent: layer.
-    #[schemars(with = "StateFile")]
+    #[schemars(with = "StressState")]
     #[serde(default)]
-    pub stress_state: Option<StateFile>,
+    pub stress_state: Option<StressState>,
 }
 
 /// Drop of the sprag's surface along its length; each kind reads its own keys.
@@ -90,12 +90,4 @@ pub(super) enum EndKindFile {
     EndRelief,
     FujiwaraKawase,
     Table,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum StateFile {
-    Layer,
-    PlaneStrain,
-    PlaneStress,
 }

@@ -12,6 +12,7 @@ use super::scenario_file::ScenarioFile;
 use super::sharing_file::SharingFile;
 use super::task_file::{CheckFile, OptimizeFile};
 use super::tolerances_file::TolerancesFile;
+use crate::clutch::{Carrier, Rim};
 use crate::design::LimitsFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -222,19 +223,11 @@ pub(super) struct RacesFile {
     /// What holds the bore of the inner race against load: nothing, or a shaft so stiff that the bore keeps its radius and does
     /// not slide on it; absent: free.
     #[serde(default)]
-    pub inner_rim: RimFile,
+    pub inner_rim: Rim,
     /// What holds the outside of the outer race against load: nothing, or a housing so stiff that the outside keeps its radius
     /// and does not slide in it; absent: free.
     #[serde(default)]
-    pub outer_rim: RimFile,
-}
-
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum RimFile {
-    #[default]
-    Free,
-    Held,
+    pub outer_rim: Rim,
 }
 
 /// Tracks off centre, for the rows run-out-* of `check`: every sprag in its own gap. Not a tolerance: [tolerances] has
@@ -252,19 +245,11 @@ pub(super) struct EccentricityFile {
     /// The race that the offset stays with while the clutch winds up: the one whose track runs out, or that stands while
     /// the bearings are off centre; absent: outer-race.
     #[serde(default)]
-    pub stays_with: CarrierFile,
+    pub stays_with: Carrier,
     /// Radial stiffness of the bearings of both races together, N/um; 0: a race that floats on the sprags once they
     /// are engaged; absent: stiff, the offset stays as it is.
     #[schemars(extend("minimum" = 0))]
     pub bearing_stiffness_n_per_um: Option<f64>,
-}
-
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum CarrierFile {
-    #[default]
-    OuterRace,
-    InnerRace,
 }
 
 /// Interference fits at the reference temperature. Shaft and housing are of the material, the width and the temperature

@@ -4,20 +4,17 @@
 //! (`margin`); a gap too wide for a sprag, which is an answer of `check`. Equations: triangle (9), whose least gap is
 //! r_e + r_i1 - e_1.
 
-use super::design_file::{CarrierFile, EccentricityFile};
+use super::design_file::EccentricityFile;
 use super::findings::Findings;
 use super::geometry::mm;
-use crate::clutch::{Carrier, Eccentricity, Races, Sprags};
+use crate::clutch::{Eccentricity, Races, Sprags};
 use crate::design::m;
 
 pub(super) fn si(file: &EccentricityFile) -> Eccentricity {
     Eccentricity {
         offset_m: m(file.offset_mm),
         turning: file.turning,
-        carrier: match file.stays_with {
-            CarrierFile::OuterRace => Carrier::OuterRace,
-            CarrierFile::InnerRace => Carrier::InnerRace,
-        },
+        carrier: file.stays_with,
         // N/um to N/m.
         stiffness_n_per_m: file.bearing_stiffness_n_per_um.map_or(f64::INFINITY, |k| 1e6 * k),
     }

@@ -3,7 +3,7 @@
 //! In: `[races.press_fit]`, `[thermal]`, races and sprags as made. Out: races and sprags as run, [`Running`], SI. Absent:
 //! what a fit does ([`Fits::run`]). Equations: none.
 
-use super::design_file::{DesignFile, RimFile};
+use super::design_file::DesignFile;
 use super::findings::Findings;
 use super::geometry::mm;
 use super::steels;
@@ -13,18 +13,11 @@ use crate::design::m;
 /// Keys that change a radius, for refusals of what they lead to.
 const KEYS: [&str; 3] = ["thermal", "races.press_fit", "races"];
 
-pub(super) fn rim(file: RimFile) -> Rim {
-    match file {
-        RimFile::Free => Rim::Free,
-        RimFile::Held => Rim::Held,
-    }
-}
-
 /// Refuse a rim that is held where there is none, or where a fit says what yields beyond it.
 fn rims(file: &DesignFile, out: &mut Findings) {
     let races = &file.races;
     let fit = races.press_fit.as_ref();
-    if races.inner_rim == RimFile::Held && races.inner_bore_radius_mm == 0.0 {
+    if races.inner_rim == Rim::Held && races.inner_bore_radius_mm == 0.0 {
         out.refuse(
             &["races.inner_rim", "races.inner_bore_radius_mm"],
             "\"free\": a solid inner race has no bore to be held".to_owned(),
@@ -47,7 +40,7 @@ fn rims(file: &DesignFile, out: &mut Findings) {
             "housing",
         ),
     ] {
-        if held == RimFile::Held && fitted {
+        if held == Rim::Held && fitted {
             out.refuse(
                 &[rim, key],
                 format!("\"free\" together with {key}: the {partner} of the fit yields by its own radius and steel"),

@@ -7,6 +7,7 @@ use super::contact_file::ContactFile;
 use super::design_file::{FrictionFile, MaterialFile, RacesFile, SpragsFile, SpringFile};
 use super::random_torque::RandomTorqueFile;
 use super::scenarios::{KindFile, SCENARIO_KINDS};
+use crate::clutch::Start;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 use serde_json::Value;
@@ -78,8 +79,8 @@ pub(super) struct ScenarioFile {
     /// static, torsional-excitation and transient: the equilibrium at the start: settled (with the energizing spring,
     /// absent: this one) or without-spring (of the torque alone, as in the paper).
     #[serde(default)]
-    #[schemars(with = "StartFile")]
-    pub start: Option<StartFile>,
+    #[schemars(with = "Start")]
+    pub start: Option<Start>,
     /// torsional-excitation, engagement and transient: names of the inertias of [[drivetrain]] that take part; absent: all
     /// of them, empty: none.
     pub drivetrain: Option<Vec<String>>,
@@ -107,13 +108,6 @@ pub(super) struct ScenarioFile {
     #[serde(default)]
     #[schemars(schema_with = "part_of::<ContactFile>")]
     pub contact: Option<toml::Table>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum StartFile {
-    Settled,
-    WithoutSpring,
 }
 
 /// The schema of a table of which any key may be left out (tables within it as well; rows of arrays stay whole).

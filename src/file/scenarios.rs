@@ -10,14 +10,14 @@ use super::design_file::DesignFile;
 use super::drivetrain;
 use super::findings::Findings;
 use super::history::HistoryKind;
-use super::scenario_file::{ScenarioFile, StartFile};
+use super::scenario_file::ScenarioFile;
 use super::shape;
 use super::steels::{self, BODIES, MATERIAL_KEYS};
 use crate::design::rad_s;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
+use crate::clutch::{Clutch, Scenario, ScenarioKind};
 
 /// The kinds by their names in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -222,10 +222,7 @@ pub(super) fn scenarios(
             ) => list.push(Scenario {
                 name: entry.name.clone(),
                 kind,
-                start: match entry.start {
-                    None | Some(StartFile::Settled) => Start::Settled,
-                    Some(StartFile::WithoutSpring) => Start::WithoutSpring,
-                },
+                start: entry.start.unwrap_or_default(),
                 clutch,
                 torque_history,
                 speed_history,

@@ -28,6 +28,7 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     let mut schema = settings.into_generator().into_root_schema_for::<DesignFile>();
     // TOML has no null: an optional key is left out.
     RecursiveTransform(drop_null).transform(&mut schema);
+    RecursiveTransform(list_names).transform(&mut schema);
     if let Some(object) = schema.as_object_mut() {
         object.insert("title".to_owned(), "sprag-design design file".into());
     }
@@ -49,6 +50,18 @@ fn drop_null(schema: &mut Schema) {
     }
     if schema.get("default").is_some_and(Value::is_null) {
         schema.remove("default");
+    }
+}
+
+/// Of an enum whose variants are explained schemars makes one schema each; a key's own description explains them, so their
+/// names are enough.
+fn list_names(schema: &mut Schema) {
+    let Some(Value::Array(variants)) = schema.get("oneOf") else { return };
+    let names = variants.iter().map(|variant| variant.get("const").cloned()).collect::<Option<Vec<_>>>();
+    if let Some(names) = names {
+        schema.remove("oneOf");
+        schema.insert("type".to_owned(), "string".into());
+        schema.insert("enum".to_owned(), names.into());
     }
 }
 

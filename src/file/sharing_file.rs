@@ -20,7 +20,7 @@ pub(super) struct SharingFile {
     /// sprung: its own spring turns each sprag until it touches both races; caged: a cage holds all at one angle, where larger ones
     /// take load earlier.
     #[serde(default)]
-    pub start: StandingFile,
+    pub start: Standing,
     /// Seed of all that is drawn.
     #[serde(default = "first")]
     pub seed: u64,
@@ -54,15 +54,6 @@ pub(super) struct SharingFile {
 
 fn first() -> u64 {
     1
-}
-
-/// How sprags stand when torque begins.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum StandingFile {
-    #[default]
-    Sprung,
-    Caged,
 }
 
 /// One sprag; what is absent is as drawn.
@@ -181,10 +172,7 @@ pub(super) fn si(
         missing: s.missing,
     };
     Sharing {
-        start: match sharing.start {
-            StandingFile::Sprung => Standing::Sprung,
-            StandingFile::Caged => Standing::Caged,
-        },
+        start: sharing.start,
         seed: sharing.seed,
         size_within_m: um(sharing.size_within_um),
         azimuth_within_rad: sharing.azimuth_within_deg.to_radians(),

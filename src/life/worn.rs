@@ -26,7 +26,7 @@ use crate::margin::{
     load_state, overrun_at,
 };
 use crate::numeric::root;
-use crate::wedge::{NoCurve, WedgeCurve};
+use crate::wedge::{AtSpeeds, NoCurve, WedgeCurve};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
@@ -398,6 +398,7 @@ fn load_of_worn(design: &Design, drawn_state: &LoadState, drawn: bool) -> Result
         profile,
         outline: None,
         curve,
+        at_speeds: AtSpeeds::default(),
         first_tan_omega,
         alpha_max_rad: drawn_state.alpha_max_rad,
         ends_alone: false,

@@ -10,7 +10,7 @@ use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
 use crate::profile::{Outline, Profile, clearance_m};
 use crate::scenario::AtRest;
-use crate::wedge::{Effort, Elastic, EndReason, StaticPoint, WedgeCurve};
+use crate::wedge::{AtSpeeds, Effort, Elastic, EndReason, StaticPoint, WedgeCurve};
 
 /// What the static limits are read from: the wedge without its energizing spring, which at such torques presses by parts in
 /// ten thousand harder and lowers |T|/N.
@@ -22,6 +22,8 @@ pub struct LoadState {
     pub outline: Option<Outline>,
     /// Curve at rest.
     pub curve: WedgeCurve,
+    /// Its curves at speed, as far as scenes have asked for them.
+    pub at_speeds: AtSpeeds,
     /// alpha_max of the spring, rad.
     pub alpha_max_rad: f64,
     /// tan omega at first contact.
@@ -33,7 +35,7 @@ pub struct LoadState {
 impl LoadState {
     /// The curve of `design`, whose state this is, for its scenes.
     pub fn at_rest<'a>(&'a self, design: &'a Design) -> AtRest<'a> {
-        AtRest { clutch: &design.clutch, curve: &self.curve }
+        AtRest { clutch: &design.clutch, curve: &self.curve, at_speeds: &self.at_speeds }
     }
 }
 
@@ -55,7 +57,8 @@ pub fn load_state_at(design: &Design, effort: Effort) -> Result<LoadState, NoMar
     let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
     let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
-    Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega, ends_alone: false })
+    let at_speeds = AtSpeeds::default();
+    Ok(LoadState { profile, outline, curve, at_speeds, alpha_max_rad, first_tan_omega, ends_alone: false })
 }
 
 /// A load state with what is asked of it.

@@ -12,12 +12,12 @@ use crate::design::{Design, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optim
 use crate::fidelity::{self, Effort};
 use crate::file::{DesignForm, EditError, content, with_limits, with_values};
 use crate::margin::{
-    Capacities, LoadState, Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins,
-    scene_margins, scene_rows, unlike_margins,
+    Capacities, LoadState, Margin, NoMargins, RESOLUTION, RunOut, SceneDemand, load_state_at,
+    run_out_margins, scene_margins, scene_rows, unlike_margins,
 };
-use crate::scenario::{AtRest, RollingTrack, Settings, demand, demand_tracked};
+use crate::scenario::{AtRest, Prepared, RollingTrack, Settings, demand, demand_tracked};
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// How an evaluation is computed.
 #[derive(Debug, Clone)]
@@ -99,10 +99,12 @@ pub struct ClutchProblem {
 /// Rows of a scene at a corner, by its number.
 type SceneRows<'a> = dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin> + Sync + 'a;
 
+/// The load state at a corner, by its number.
+type StateAt<'a> = dyn Fn(usize, &Design) -> Result<Arc<LoadState>, NoMargins> + Sync + 'a;
+
 /// How an evaluation is taken. Corners and scenes are taken side by side where threads are free.
 struct Way<'a> {
-    /// The load state, before rows are read from it.
-    state: &'a (dyn Fn(&Design, LoadState) -> LoadState + Sync),
+    state: &'a StateAt<'a>,
     scene: &'a SceneRows<'a>,
 }
 
@@ -166,7 +168,7 @@ impl ClutchProblem {
     }
 
     /// The same problem at a quarter of the work: quick curves and quick rolling runs, whose margins differ from those of
-    /// [`Fidelity::settings`] by less than the tolerance there, and by 1e-11 or so where nothing should move them. Not for what
+    /// [`Fidelity::settings`] by less than the tolerance there (by twice that with law `elastic`; test `an_evaluation_of_a_search_is_one_of_check`), and by 1e-11 or so where nothing should move them. Not for what
     /// asks whether a variable has any influence. Of no effect where everything is to run.
     pub fn quickly(&self) -> Self {
         Self { quick: self.fidelity.reduced, ..self.clone() }
@@ -329,18 +331,23 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
     pub fn assess(&self, design: &Design) -> Result<Assessment, NoEvaluation> {
-        self.assess_with(design, &self.in_whole(&|_, scenario, known| self.scene(scenario, known).0), 0)
+        self.assess_with(design, &Way { state: &self.state(), scene: &self.rows_of_scene() }, 0)
     }
 
-    /// Evaluations whose scenes are as `scene` has them.
-    fn in_whole<'a>(&self, scene: &'a SceneRows) -> Way<'a> {
-        Way { state: &|_, state| state, scene }
+    /// Load states built at the problem's effort.
+    fn state(&self) -> impl Fn(usize, &Design) -> Result<Arc<LoadState>, NoMargins> + Sync {
+        let effort = self.effort();
+        move |_, design| load_state_at(design, effort).map(Arc::new)
+    }
+
+    /// Scenes run at the problem's fidelity.
+    fn rows_of_scene(&self) -> impl Fn(usize, &Scenario, AtRest) -> Vec<Margin> + Sync {
+        |_, scenario, known| self.scene(scenario, known).0
     }
 
     /// The same at corner `k`, on its way.
     fn assess_with(&self, design: &Design, way: &Way, k: usize) -> Result<Assessment, NoEvaluation> {
-        let state = load_state_at(design, self.effort()).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
-        let state = (way.state)(design, state);
+        let state = (way.state)(k, design).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let raised = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let capacities = if raised { Capacities::Wanted } else { Capacities::LeftOut };
         let loaded = || {
@@ -379,8 +386,8 @@ impl ClutchProblem {
         Ok(Assessment { rows, measures: measures_of_goals })
     }
 
-    /// The rows of a scene, and what it integrated where that can be taken again.
-    fn scene(&self, scenario: &Scenario, known: AtRest) -> (Vec<Margin>, Option<RollingTrack>) {
+    /// The rows of a scene, and what it integrated, with the model that it did that for, where that can be taken again.
+    fn scene(&self, scenario: &Scenario, known: AtRest) -> (Vec<Margin>, Option<(RollingTrack, Prepared)>) {
         let Fidelity { settings, reduced } = &self.fidelity;
         let whole = || (scene_margins(scenario, &self.limits, true, Some(known), settings), None);
         if !reduced {
@@ -397,7 +404,8 @@ impl ClutchProblem {
         if !found.finished && plan.reduction.reach_nm.is_some() {
             return whole();
         }
-        (scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true), track)
+        let rows = scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true);
+        (rows, track.map(|track| (track, prepared)))
     }
 
     /// The design at `x` without the scenarios that no margin is asked of; where that is refused, the whole one says why.
@@ -419,7 +427,7 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
     pub fn assess_at(&self, x: &[f64]) -> Result<Assessment, NoEvaluation> {
-        self.assess_at_with(x, &self.in_whole(&|_, scenario, known| self.scene(scenario, known).0))
+        self.assess_at_with(x, &Way { state: &self.state(), scene: &self.rows_of_scene() })
     }
 
     /// The same on its way.

@@ -1,9 +1,12 @@
 //! The rim of a race away from its contacts: free, or held by a housing or a shaft that does not yield.
 
 use super::ring::Race;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// What the rim away from the contacts is held by: the outside of an outer race, the bore of an inner one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Rim {
     /// Nothing: no stress across it, none along it but the even shear by which the torque leaves.
     #[default]

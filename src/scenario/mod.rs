@@ -32,5 +32,5 @@ pub use prepare::{
 pub use published::{published_steps, simulate_published};
 pub use resonance::{ResonanceCell, resonance};
 pub use roll_over::{Beyond, Fate, beyond};
-pub use simulate::{Settings, TOLERANCES, simulate, simulate_prepared};
+pub use simulate::{Settings, TOLERANCES, Terms, simulate, simulate_prepared};
 pub use sliding::{Lubricated, Sliding, sliding};

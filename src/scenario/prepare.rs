@@ -9,7 +9,7 @@ use crate::dynamics::{
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
 use crate::profile::ProfileError;
-use crate::wedge::{Effort, NoCurve, StaticPoint, WedgeCurve};
+use crate::wedge::{AtSpeeds, Effort, NoCurve, StaticPoint, WedgeCurve};
 
 /// Why a scenario has no start. A named outcome, not a fault of the file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -124,6 +124,8 @@ pub struct AtRest<'a> {
     pub clutch: &'a Clutch,
     /// Its curve at rest, all arcs.
     pub curve: &'a WedgeCurve,
+    /// Its curves at speed.
+    pub at_speeds: &'a AtSpeeds,
 }
 
 /// Build model and initial state.
@@ -167,7 +169,7 @@ fn at_start(
     let known = known.filter(|k| k.clutch == clutch);
     let build = |speed: f64| {
         let Reduction { reach_nm, effort } = *reduction;
-        let of_known = known.and_then(|k| k.curve.at_speed(speed, reach_nm, effort));
+        let of_known = known.and_then(|k| k.at_speeds.of(k.curve, speed, reach_nm, effort));
         let anew = || WedgeCurve::build_reaching_at(clutch, &profile, speed, reach_nm, effort);
         of_known.map_or_else(anew, Ok).map_err(NoScenario::Curve)
     };

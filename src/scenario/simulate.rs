@@ -101,6 +101,15 @@ const FALLS: f64 = 0.1;
 /// of steps that nothing else limits would agree, and be wrong together.
 const ORDER: f64 = 8.0;
 
+/// How much of the equations a scene is run with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Terms {
+    /// Everything.
+    All,
+    /// What it can feel.
+    Felt,
+}
+
 /// Simulate `scenario` with the event-driven scheme. Three runs, whose steps differ tenfold in tolerance, the longest by
 /// its eighth root: the finest is the answer, its difference to the one before the error estimate, at least three tenths of
 /// the difference before that. Where that exceeds the tolerance asked for, a finer run follows, until they agree, a run meets
@@ -109,13 +118,13 @@ const ORDER: f64 = 8.0;
 /// # Errors
 /// [`NoScenario`] where the scenario has no start; whatever happens afterwards is a result.
 pub fn simulate(scenario: &Scenario, settings: &Settings) -> Result<Simulation, NoScenario> {
-    Ok(simulate_prepared(&prepare(scenario)?, settings, false))
+    Ok(simulate_prepared(&prepare(scenario)?, settings, Terms::All))
 }
 
 /// As [`simulate`], from a prepared scenario. Each of the runs has a pure-rolling run beside it, for the demand, and runs that
-/// bisect that where rolling unloads the contact. `reduced`: where the pure-rolling run never asks for as much friction as
-/// there is, it is the run itself.
-pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool) -> Simulation {
+/// bisect that where rolling unloads the contact. With [`Terms::Felt`], where the pure-rolling run never asks for as much friction
+/// as there is, it is the run itself.
+pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, terms: Terms) -> Simulation {
     if prepared.duration_s == 0.0 {
         return steady(prepared, settings);
     }
@@ -125,7 +134,7 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         settings.follow.begin_pass(before.is_none(), tolerance);
         // The coarsest run is never the answer: its energy is not asked for.
         let settings = &Settings { energy: settings.energy && before.is_some(), ..settings.clone() };
-        attempt(prepared, settings, fineness, samples, reduced, before.and_then(Try::bisected), answered)
+        attempt(prepared, settings, fineness, samples, terms, before.and_then(Try::bisected), answered)
     };
     let mut tolerance = coarsest;
     // What is known of a long scene where it is interrupted.
@@ -234,7 +243,7 @@ fn attempt(
     settings: &Settings,
     fineness: Fineness,
     samples: usize,
-    reduced: bool,
+    terms: Terms,
     near: Option<f64>,
     answered: bool,
 ) -> Try {
@@ -244,7 +253,7 @@ fn attempt(
         let s = run_settings(prepared, settings, fineness, samples, STEPS_PER_PERIOD);
         run(&prepared.model, prepared.state, mode, &s)
     };
-    if !(reduced && stuck && prepared.overrun.is_none()) {
+    if !(terms == Terms::Felt && stuck && prepared.overrun.is_none()) {
         return Try::new(prepared, go(), answered, || demand_at(prepared, settings, fineness, near));
     }
     let (rolling, demand) = roll(prepared, settings, fineness, samples, STEPS_PER_PERIOD, near);

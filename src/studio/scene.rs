@@ -6,7 +6,7 @@ use crate::design::Design;
 use crate::dynamics::{Grip, Place, Sample};
 use crate::margin::{LoadState, SceneDemand, scene_demand, scene_rows};
 use crate::report::{Curve, Dash, Plot, Unit, significant};
-use crate::scenario::{NoScenario, Prepared, Settings, prepare, simulate_prepared};
+use crate::scenario::{NoScenario, Prepared, Settings, Terms, prepare, simulate_prepared};
 use serde::Serialize;
 
 /// The demand of one scenario on friction, without its course.
@@ -89,7 +89,7 @@ pub fn scene_view(
     let tolerance = settings.tolerance.max(PLAYED);
     let settings = Settings { samples: SAMPLES, tolerance, ..settings.clone() };
     let prepared = prepare(scenario)?;
-    let s = simulate_prepared(&prepared, &settings, false);
+    let s = simulate_prepared(&prepared, &settings, Terms::All);
     let mut facts = vec![("reached".to_owned(), Unit::Second.show(s.t_s, 4))];
     if let (Some(free), ScenarioKind::Overrun { speed_rad_s, overrun_rad_s }) =
         (prepared.overrun, scenario.kind)
@@ -134,7 +134,7 @@ pub fn scene_view(
     let column = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(f).collect::<Vec<_>>();
     let before = pinned.and_then(|pinned| {
         let prepared = prepare(pinned).ok()?;
-        Some(ScenePlots::new(pinned, &prepared, &simulate_prepared(&prepared, &settings, false).samples))
+        Some(ScenePlots::new(pinned, &prepared, &simulate_prepared(&prepared, &settings, Terms::All).samples))
     });
     let plots = match samples.is_empty() {
         true => Vec::new(),

@@ -70,8 +70,8 @@ impl WedgeCurve {
         statics.effort = effort;
         statics.elastic = statics.elastic.quickly();
         match Self::march(statics, q, speed_rad_s, reach_nm, effort) {
-            Ok(quick) if quick.truncation() < TRUSTED => Ok(quick),
-            // It varies more than a few panels follow, or is none: the full one decides.
+            Ok(quick) if quick.is_trusted() => Ok(quick),
+            // Or there is none: the full one decides.
             _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full),
         }
     }
@@ -79,10 +79,18 @@ impl WedgeCurve {
     /// The curve of the same clutch at mean speed `speed_rad_s`, as [`Self::build_reaching_at`] has it at the effort of this one, whose
     /// elastic laws and bodies stand already; `None`: that is to be asked.
     pub fn at_speed(&self, speed_rad_s: f64, reach_nm: Option<f64>, effort: Effort) -> Option<Self> {
+        self.marched(speed_rad_s, reach_nm, effort).filter(Self::is_trusted)
+    }
+
+    /// The same whether or not it [`Self::is_trusted`].
+    pub(super) fn marched(&self, speed_rad_s: f64, reach_nm: Option<f64>, effort: Effort) -> Option<Self> {
         let same = self.effort == effort;
-        let found =
-            same.then(|| Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort));
-        found?.ok().filter(|curve| effort == Effort::Full || curve.truncation() < TRUSTED)
+        same.then(|| Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort))?.ok()
+    }
+
+    /// Whether it may be taken as it is: a quick one that varies more than a few panels follow may not.
+    pub(super) fn is_trusted(&self) -> bool {
+        self.effort == Effort::Full || self.truncation() < TRUSTED
     }
 
     /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
@@ -219,6 +227,11 @@ impl WedgeCurve {
             return Err(NoCurve::NoFirstContact);
         }
         Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, over: Vec::new(), end, touch })
+    }
+
+    /// Whether one of its arcs carries `reach_nm` (N m).
+    pub(super) fn carries(&self, reach_nm: f64) -> bool {
+        self.arcs.iter().any(|arc| arc.torque_until_nm > reach_nm)
     }
 
     /// This curve without the arcs after the one that carries `reach_nm` (N m): what [`Self::build_reaching`] builds, for who has

@@ -7,6 +7,7 @@
 //! makes alpha, N and windup continuous at a junction by themselves; the paper's pointwise radius needs Figure 5's shift.
 
 mod apart;
+mod at_speeds;
 mod axial;
 mod axis_turns;
 mod build;
@@ -27,6 +28,7 @@ mod table;
 
 pub use crate::contact::{Edge, Peak};
 pub use apart::{Borne, SpragDeviation};
+pub use at_speeds::AtSpeeds;
 pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error};
 pub use axis_turns::{AxisTurn, AxisTurns};
 pub use build::Effort;

@@ -3,7 +3,7 @@
 use super::{Ran, SimulationSettings};
 use crate::clutch::Scenario;
 use crate::report::Unit;
-use crate::scenario::{Settings, Verdict, prepare, simulate_prepared};
+use crate::scenario::{Settings, Terms, Verdict, prepare, simulate_prepared};
 
 /// Damping that is tried where a design has none, s/m: the middle of the 0.08 to 0.32 that Hunt and Crossley (1975)
 /// give for steel.
@@ -36,7 +36,7 @@ impl Ran {
         let mut other = Scenario::clone(&self.scenario);
         other.clutch.hunt_crossley_s_per_m = if given == 0.0 { TRIED_S_PER_M } else { 0.0 };
         let run = Settings { samples: 0, ..settings.of_run(&self.scenario) };
-        let s = simulate_prepared(&prepare(&other).ok()?, &run, true);
+        let s = simulate_prepared(&prepare(&other).ok()?, &run, Terms::Felt);
         let error_rad = own_error.theta_inner_rad + s.error?.theta_inner_rad;
         Some(Effect {
             other_s_per_m: other.clutch.hunt_crossley_s_per_m,

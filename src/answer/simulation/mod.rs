@@ -30,7 +30,7 @@ use super::{Answer, Envelope, Finding, Provenance};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::dynamics::Stop;
-use crate::fidelity::{self, Term};
+use crate::fidelity::{self, Term, Terms};
 use crate::report::{Page, Screen, Table};
 use crate::scenario::{Beyond, NoScenario, Prepared, Simulation, Verdict, beyond};
 use serde::{Serialize, Serializer};
@@ -204,8 +204,11 @@ impl Ran {
     /// Run `scenario` of `design`; [`SimulationSettings::follow`] is told how far it is.
     pub fn new(design: &Design, scenario: &Scenario, settings: &SimulationSettings) -> Self {
         let found = match settings.method {
-            Integration::Event => fidelity::simulate(scenario, &settings.of_run(scenario), settings.full)
-                .map(|planned| ((planned.prepared, planned.simulation), planned.left_out, planned.kept)),
+            Integration::Event => {
+                let terms = if settings.full { Terms::All } else { Terms::Felt };
+                fidelity::simulate(scenario, &settings.of_run(scenario), terms)
+                    .map(|planned| ((planned.prepared, planned.simulation), planned.left_out, planned.kept))
+            }
             #[cfg(feature = "validation")]
             Integration::Published { .. } => {
                 settings.run_published(scenario).map(|ran| (ran, Vec::new(), Vec::new()))

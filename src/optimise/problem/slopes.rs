@@ -1,19 +1,24 @@
 //! Evaluations of a clutch, and the slopes of its margins beside one.
 
-use super::{ClutchProblem, Way};
+use super::{ClutchProblem, StateAt, Way};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::{Design, Link};
 use crate::fidelity;
-use crate::margin::{LoadState, Margin, SceneDemand, ends_decide, scene_margins, scene_rows};
+use crate::margin::{LoadState, Margin, SceneDemand, ends_decide, load_state_at, scene_margins, scene_rows};
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
-use crate::scenario::{AtRest, RollingTrack, demand_retraced};
+use crate::scenario::{AtRest, Prepared, RollingTrack, demand_retraced};
 use rayon::prelude::*;
 use std::collections::{HashMap, VecDeque};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
-/// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
-type Tracks = HashMap<(usize, String), Option<RollingTrack>>;
+/// What an evaluation stood on: by the number of the corner its load state, by that and the name of the scene what that integrated
+/// and for which model.
+#[derive(Debug, Default)]
+struct Tracks {
+    states: HashMap<usize, Arc<LoadState>>,
+    scenes: HashMap<(usize, String), (RollingTrack, Prepared)>,
+}
 
 /// Points beside an evaluation, and by how much each changes its measures.
 type Answered = (Vec<Vec<f64>>, Vec<Vec<f64>>);
@@ -32,7 +37,7 @@ struct Past {
 pub(super) struct Recent(Mutex<VecDeque<Past>>);
 
 impl Recent {
-    /// As many as climbs side by side may ask for before one of them comes back to its own: 30 kB each.
+    /// As many as climbs side by side may ask for before one of them comes back to its own: a megabyte each.
     const MOST: usize = 32;
 
     /// What `what` finds in the evaluation at `x`.
@@ -62,55 +67,82 @@ struct Here {
 }
 
 impl ClutchProblem {
-    /// The rows of a scene as a neighbour of the one whose track is given.
-    fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&RollingTrack>) -> Vec<Margin> {
+    /// The rows of a scene as a neighbour of the one whose track is given. `as_it_was`: the neighbour is that scene itself.
+    fn scene_beside(
+        &self,
+        scenario: &Scenario,
+        known: AtRest,
+        track: Option<&(RollingTrack, Prepared)>,
+        as_it_was: bool,
+    ) -> Vec<Margin> {
         let moves = !matches!(scenario.kind, ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. });
-        if moves && track.is_none() {
-            let unknown = SceneDemand::unknown(scenario);
-            return scene_rows(scenario, &unknown, &self.limits, true);
+        let rows = |demand: &SceneDemand| scene_rows(scenario, demand, &self.limits, true);
+        let retraced = |prepared: &Prepared| match demand_retraced(prepared, track.map(|(track, _)| track)) {
+            Some(found) => rows(&SceneDemand::of(scenario, prepared, found)),
+            None => rows(&SceneDemand::unknown(scenario)),
+        };
+        match track {
+            None if moves => rows(&SceneDemand::unknown(scenario)),
+            Some((_, prepared)) if as_it_was => retraced(prepared),
+            _ => match fidelity::plan_at(scenario, Some(known), self.effort()) {
+                Ok((_, prepared)) => retraced(&prepared),
+                Err(_) => scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings),
+            },
         }
-        let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
-            return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
-        };
-        let demand = match demand_retraced(&prepared, track) {
-            Some(found) => SceneDemand::of(scenario, &prepared, found),
-            None => SceneDemand::unknown(scenario),
-        };
-        scene_rows(scenario, &demand, &self.limits, true)
     }
 
-    /// The evaluation at `x`, and what its scenes integrated.
+    /// The evaluation at `x`, and what it stood on.
     fn tracked(&self, x: &[f64]) -> Result<(Evaluation, Arc<Tracks>), NoEvaluation> {
-        let tracks = Mutex::new(Tracks::new());
-        let keep = |of: (usize, String), track| {
-            tracks.lock().unwrap_or_else(|e| e.into_inner()).insert(of, track);
+        let tracks = Mutex::new(Tracks::default());
+        let kept = || tracks.lock().unwrap_or_else(|e| e.into_inner());
+        let build = self.state();
+        let state = |k: usize, design: &Design| {
+            let state = build(k, design)?;
+            kept().states.insert(k, state.clone());
+            Ok(state)
         };
         let scene = |k: usize, scenario: &Scenario, known: AtRest| {
             let (rows, track) = self.scene(scenario, known);
-            keep((k, scenario.name.clone()), track);
+            track.map(|track| kept().scenes.insert((k, scenario.name.clone()), track));
             rows
         };
-        let assessed = self.assess_at_with(x, &self.in_whole(&scene))?;
+        let assessed = self.assess_at_with(x, &Way { state: &state, scene: &scene })?;
         let tracks = tracks.into_inner().unwrap_or_else(|e| e.into_inner());
         Ok((self.evaluation(&assessed), Arc::new(tracks)))
     }
 
-    /// The evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is none.
-    /// `ends_alone`: known of a neighbour that [`ends_decide`]; `None`: to be seen.
-    fn retraced(&self, x: &[f64], tracks: &Tracks, ends_alone: Option<bool>) -> Option<Here> {
+    /// The evaluation that `tracks` is of, at its own `x`, with every scene as a neighbour has it.
+    fn here(&self, x: &[f64], tracks: &Tracks) -> Option<Here> {
         let all_decide = AtomicBool::new(true);
-        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
-            let track = tracks.get(&(k, scenario.name.clone())).and_then(Option::as_ref);
-            self.scene_beside(scenario, known, track)
-        };
-        let state = |design: &Design, state: LoadState| {
-            let decide = ends_alone.unwrap_or_else(|| ends_decide(design, &self.limits, &state));
+        let build = self.state();
+        let state = |k: usize, design: &Design| {
+            let state = tracks.states.get(&k).map_or_else(|| build(k, design), |state| Ok(state.clone()))?;
+            let decide = ends_decide(design, &self.limits, &state);
             all_decide.fetch_and(decide, Ordering::Relaxed);
-            LoadState { ends_alone: decide, ..state }
+            Ok(Arc::new(LoadState { ends_alone: decide, ..LoadState::clone(&state) }))
         };
-        let assessed = self.assess_at_with(x, &Way { state: &state, scene: &scene }).ok()?;
-        let outputs = self.evaluation(&assessed).outputs();
+        let outputs = self.retraced(x, tracks, &state, true)?;
         Some(Here { outputs, ends_decide: all_decide.into_inner() })
+    }
+
+    /// The same at a neighbour `x` of the one that `here` is.
+    fn beside(&self, x: &[f64], tracks: &Tracks, here: &Here) -> Option<Vec<f64>> {
+        let state = |_: usize, design: &Design| {
+            let state = load_state_at(design, self.effort())?;
+            Ok(Arc::new(LoadState { ends_alone: here.ends_decide, ..state }))
+        };
+        self.retraced(x, tracks, &state, false)
+    }
+
+    /// Outputs at `x` with load states as `state` has them and every scene as the neighbour of the one in `tracks`; NaN where that has
+    /// none.
+    fn retraced(&self, x: &[f64], tracks: &Tracks, state: &StateAt, as_it_was: bool) -> Option<Vec<f64>> {
+        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
+            let track = tracks.scenes.get(&(k, scenario.name.clone()));
+            self.scene_beside(scenario, known, track, as_it_was)
+        };
+        let assessed = self.assess_at_with(x, &Way { state, scene: &scene }).ok()?;
+        Some(self.evaluation(&assessed).outputs())
     }
 }
 
@@ -139,10 +171,10 @@ impl Evaluate for ClutchProblem {
             Some(known) => known,
             None => self.tracked(x).ok()?.1,
         };
-        let here = self.retraced(x, &tracks, None)?;
-        let change = |at: &Vec<f64>| match self.retraced(at, &tracks, Some(here.ends_decide)) {
-            Some(there) if there.outputs.len() == here.outputs.len() => {
-                there.outputs.iter().zip(&here.outputs).map(|(b, a)| b - a).collect()
+        let here = self.here(x, &tracks)?;
+        let change = |at: &Vec<f64>| match self.beside(at, &tracks, &here) {
+            Some(there) if there.len() == here.outputs.len() => {
+                there.iter().zip(&here.outputs).map(|(b, a)| b - a).collect()
             }
             _ => Vec::new(),
         };
