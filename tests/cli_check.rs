@@ -105,7 +105,11 @@ fn a_run_that_meets_its_limit_of_work_is_not_computed_rather_than_broken() {
     let lost: Vec<_> = rows.iter().filter(|row| !row.computed()).collect();
     assert!(lost.len() == 6 && rows.len() > 6, "{} of {}", lost.len(), rows.len());
     for row in lost {
-        assert!(row.margin() == -1.0 && row.name.contains("not computed, step-limit"), "{}", row.name);
+        assert!(
+            row.margin() == -1.0 && row.full_name().contains("not computed, step-limit"),
+            "{}",
+            row.full_name()
+        );
     }
 }
 

@@ -107,7 +107,7 @@ fn the_verdict_tells_of_indentation_of_slips_and_of_what_is_not_known() {
     let said = |changes: &[(&str, &str)]| {
         let design = design(changes);
         let answer = design.life().unwrap();
-        (answer.life.held(), answer.verdict(), answer.envelope(0.0).body)
+        (answer.life.held(), answer.verdict(), serde_json::to_value(answer.envelope(0.0).body).unwrap())
     };
     let (held, verdict, body) = said(&[]);
     assert!(held && verdict.starts_with("HELD: pitting") && !verdict.contains("not known"), "{verdict}");

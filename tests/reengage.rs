@@ -94,7 +94,7 @@ fn what_is_borne_is_the_border() {
     // Held: nothing more is asked.
     assert!(design.reengagement(&settings(0.06, &[1e-3])).unwrap().borne.is_none());
     // The energy is that of the motion, and its share that of the windup up to the limit.
-    let body = answer.envelope(0.0).body;
+    let body = serde_json::to_value(answer.envelope(0.0).body).unwrap();
     let blow = &body["blows"][0];
     let speed = blow["speed_rpm"].as_f64().unwrap() * std::f64::consts::PI / 30.0;
     assert!((blow["energy_j"].as_f64().unwrap() / (0.5 * 0.025 * speed * speed) - 1.0).abs() < 1e-12);
@@ -107,7 +107,7 @@ fn the_speed_is_that_of_the_file() {
     let speed = |file: &str, given: Option<f64>| {
         let design = Design::read(file.as_ref()).unwrap();
         let asked = ReengagementSettings { speed_rad_s: given, ..ReengagementSettings::default() };
-        let body = design.reengagement(&asked).unwrap().envelope(0.0).body;
+        let body = serde_json::to_value(design.reengagement(&asked).unwrap().envelope(0.0).body).unwrap();
         (body["speed_rpm"].as_f64().unwrap().round(), body["speed_of"].is_string())
     };
     assert_eq!(speed(FILE, None), (0.0, false));

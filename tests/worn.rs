@@ -191,7 +191,7 @@ fn a_life_tells_when_wear_ends_it() {
     println!("{}", answer.verdict());
     assert!(share < 1.0 && why.names().0 == "friction", "{share} {why:?}");
     assert!(answer.verdict().starts_with("NOT HELD") && answer.verdict().contains("slip"));
-    let body = answer.envelope(0.0).body;
+    let body = serde_json::to_value(answer.envelope(0.0).body).unwrap();
     assert_eq!(body["wear"]["broken_by"], "friction");
     assert_eq!(body["wear"]["states"].as_array().unwrap().len(), answer.worn.as_ref().unwrap().states.len());
     let oil = OIL.find("[lubrication]").unwrap()..OIL.find("[[scenarios]]").unwrap();

@@ -4,7 +4,7 @@ use super::left_out::{LeftOut, left_out_of};
 use super::page::{draw_inputs, opened};
 use crate::design::Design;
 use crate::report::{Page, Rows, Screen, Table, Tone};
-use serde::Serialize;
+use serde::ser::{Error, Serialize, Serializer};
 use serde_json::Value;
 
 /// Program name in every output.
@@ -39,8 +39,19 @@ pub struct Envelope<'a, B: Serialize> {
     pub body: B,
 }
 
+/// Keys that stand in the order of the alphabet in JSON, at every depth.
+#[derive(Debug, Clone)]
+pub struct ByAlphabet<B>(pub B);
+
+impl<B: Serialize> Serialize for ByAlphabet<B> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // A map of serde_json is in that order.
+        serde_json::to_value(&self.0).map_err(S::Error::custom)?.serialize(serializer)
+    }
+}
+
 /// The one JSON object of an answer.
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 struct Object<'a, B: Serialize> {
     tool: &'static str,
     version: &'static str,
@@ -150,6 +161,11 @@ pub trait Answer {
 
 /// What an answer about one design says; the faces of [`Answer`] follow from it.
 pub trait Said {
+    /// Its own keys in JSON.
+    type Body<'a>: Serialize
+    where
+        Self: 'a;
+
     /// Title of its page.
     fn title(&self) -> &str;
     /// The design.
@@ -163,7 +179,7 @@ pub trait Said {
     /// The table for programs.
     fn table(&self) -> Table;
     /// Its own keys in JSON.
-    fn body(&self) -> Value;
+    fn body(&self) -> Self::Body<'_>;
     /// What stands on a page between the remarks and the inputs.
     fn draw(&self, page: &mut Page);
 
@@ -205,7 +221,7 @@ pub trait Said {
 
 impl<T: Said> Answer for T {
     type Body<'a>
-        = Value
+        = T::Body<'a>
     where
         T: 'a;
 
@@ -242,7 +258,7 @@ impl<T: Said> Answer for T {
         page
     }
 
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, T::Body<'_>> {
         Envelope {
             design: self.design(),
             run_time_s,
@@ -259,7 +275,7 @@ mod tests {
 
     #[test]
     fn the_envelope_comes_first_and_holds_the_body() {
-        #[derive(Serialize)]
+        #[derive(serde::Serialize)]
         struct Body {
             pass: bool,
             margins: Vec<f64>,

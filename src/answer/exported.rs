@@ -7,7 +7,7 @@ use crate::design::Design;
 use crate::export::rows::{SurfacePoint, SurfaceRow, arcs};
 use crate::export::{DrawnClutch, Part};
 use crate::report::{Cell, Column, Rows, Table, Unit};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// From here the drawn sprag is said to weigh otherwise than the one computed.
 const OTHER_MASS: f64 = 5e-3;
@@ -29,24 +29,66 @@ pub struct Exported<'a> {
     pub bytes: usize,
 }
 
+/// An arc or a flank.
+#[derive(Debug, Clone, Serialize)]
+pub struct ArcBody {
+    /// Azimuths of its ends from the centre, deg.
+    pub angles_deg: Option<[f64; 2]>,
+    /// The body that it bounds.
+    pub body: String,
+    /// Centre, mm; null of a flank.
+    pub centre_mm: Option<[f64; 2]>,
+    /// Its ends, mm; null of a full circle.
+    pub ends_mm: Option<[[f64; 2]; 2]>,
+    /// Radius, mm.
+    pub radius_mm: Option<f64>,
+    /// Its name.
+    pub surface: String,
+}
+
+/// Keys of `export`.
+#[derive(Debug, Clone, Serialize)]
+pub struct ExportedBody<'a> {
+    /// Every arc and flank.
+    pub arcs: Vec<ArcBody>,
+    /// Its length, bytes.
+    pub bytes: usize,
+    /// Name of the format.
+    pub format: &'a str,
+    /// Mass of the drawn sprag over the one that the design gives; null: it gives none.
+    pub mass_over_given: Option<f64>,
+    /// Which part is drawn.
+    pub part: &'static str,
+    /// Where the file is.
+    pub written: Option<&'a str>,
+}
+
+impl ArcBody {
+    fn of(row: SurfaceRow) -> Self {
+        let mm = |m: f64| Unit::Millimetre.from_si(m);
+        Self {
+            body: row.body,
+            surface: row.surface,
+            centre_mm: row.circle_m.map(|(centre, _)| centre.map(mm)),
+            radius_mm: row.circle_m.map(|(_, radius)| mm(radius)),
+            angles_deg: row.angles_rad.map(|a| a.map(f64::to_degrees)),
+            ends_mm: row.ends_m.map(|e| e.map(|p| p.map(mm))),
+        }
+    }
+}
+
 impl<'a> Exported<'a> {
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s; `written`: where the file is.
-    pub fn envelope(&self, run_time_s: f64, written: Option<&str>) -> Envelope<'a, Value> {
-        let rows = arcs(self.part, self.subject);
-        Envelope {
-            design: self.design,
-            run_time_s,
-            left_out: self.left_out(),
-            error_estimate: None,
-            body: json!({
-                "format": self.format,
-                "part": self.part.name(),
-                "written": written,
-                "bytes": self.bytes,
-                "mass_over_given": self.subject.mass_excess().map(|excess| 1.0 + excess),
-                "arcs": rows.iter().map(row_json).collect::<Vec<_>>(),
-            }),
-        }
+    pub fn envelope(&self, run_time_s: f64, written: Option<&'a str>) -> Envelope<'a, ExportedBody<'a>> {
+        let body = ExportedBody {
+            format: self.format,
+            part: self.part.name(),
+            written,
+            bytes: self.bytes,
+            mass_over_given: self.subject.mass_excess().map(|excess| 1.0 + excess),
+            arcs: arcs(self.part, self.subject).into_iter().map(ArcBody::of).collect(),
+        };
+        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
     }
 
     /// What the one who makes the sprag should know.
@@ -117,16 +159,4 @@ pub fn points_table(points: &[SurfacePoint]) -> Table {
         .number("x_mm", "x", Unit::Millimetre, 6, |p| p.at_m[0])
         .number("y_mm", "y", Unit::Millimetre, 6, |p| p.at_m[1])
         .table()
-}
-
-fn row_json(r: &SurfaceRow) -> Value {
-    let mm = |m: f64| Unit::Millimetre.from_si(m);
-    json!({
-        "body": r.body,
-        "surface": r.surface,
-        "centre_mm": r.circle_m.map(|(c, _)| c.map(mm)),
-        "radius_mm": r.circle_m.map(|(_, radius)| mm(radius)),
-        "angles_deg": r.angles_rad.map(|a| a.map(f64::to_degrees)),
-        "ends_mm": r.ends_m.map(|e| e.map(|p| p.map(mm))),
-    })
 }

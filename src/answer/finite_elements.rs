@@ -8,7 +8,7 @@ use crate::export::calculix::{Facts, ResultRow};
 use crate::race::twist_rad_per_nm;
 use crate::report::{Page, Rows, Table, Unit};
 use crate::wedge::{StaticPoint, WedgeCurve};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// Rows of a result of CalculiX beside the curve of the design.
 #[derive(Debug, Clone)]
@@ -21,6 +21,46 @@ pub struct FiniteElements<'a> {
     /// Torsion of both races, rad per N m.
     twist_rad_per_nm: f64,
     turned: f64,
+}
+
+/// A row of a result, and the state of the design's own law at its torque.
+pub type ResultPoint<'a> = (&'a ResultRow, &'a Option<StaticPoint>);
+
+/// Keys of an answer about a result of finite elements.
+#[derive(Debug, Clone, Serialize)]
+pub struct FiniteElementsBody<'a> {
+    /// Which windups stand beside each other, and what the law is stated with.
+    pub compared: String,
+    /// The same of forces and tangents, percent.
+    pub law_force_error_percent: f64,
+    /// What the law is stated with of windup, percent.
+    pub law_windup_error_percent: f64,
+    /// Size of its elements at the contacts, mm.
+    pub mesh_mm: f64,
+    /// Each row, one of [`FiniteElements::points`].
+    pub points: Rows<ResultPoint<'a>>,
+    /// The solver.
+    pub source: &'static str,
+    /// How far the result has turned of what the deck asks for, 0 to 1.
+    pub turned: f64,
+    /// Variant of the deck.
+    pub variant: &'a str,
+}
+
+impl<'a> FiniteElementsBody<'a> {
+    fn of(answer: &'a FiniteElements<'_>) -> Self {
+        let [windup, force] = answer.design.clutch.law_error().map(|error| Unit::Percent.from_si(error));
+        Self {
+            source: "calculix",
+            variant: &answer.facts.variant,
+            mesh_mm: answer.facts.mesh_mm,
+            turned: answer.turned,
+            compared: answer.compared(),
+            law_windup_error_percent: windup,
+            law_force_error_percent: force,
+            points: answer.points(),
+        }
+    }
 }
 
 impl<'a> FiniteElements<'a> {
@@ -60,7 +100,7 @@ impl<'a> FiniteElements<'a> {
     }
 
     /// The rows, the design's law beside them.
-    pub fn points(&self) -> Rows<(&ResultRow, &Option<StaticPoint>)> {
+    pub fn points(&self) -> Rows<ResultPoint<'_>> {
         let twist_rad = |r: &ResultRow| self.twist_rad_per_nm * r.torque_nm;
         Rows::of(self.rows.iter().zip(&self.law))
             .number("torque_nm", "Torque", Unit::NewtonMetre, 5, |(r, _)| r.torque_nm)
@@ -92,6 +132,11 @@ impl<'a> FiniteElements<'a> {
 }
 
 impl Said for FiniteElements<'_> {
+    type Body<'a>
+        = FiniteElementsBody<'a>
+    where
+        Self: 'a;
+
     fn title(&self) -> &str {
         "Finite elements"
     }
@@ -116,13 +161,8 @@ impl Said for FiniteElements<'_> {
         self.points().table()
     }
 
-    fn body(&self) -> Value {
-        let [windup, force] = self.design.clutch.law_error().map(|error| Unit::Percent.from_si(error));
-        json!({
-            "source": "calculix", "variant": self.facts.variant, "mesh_mm": self.facts.mesh_mm, "turned": self.turned,
-            "compared": self.compared(), "law_windup_error_percent": windup, "law_force_error_percent": force,
-            "points": self.points().objects(),
-        })
+    fn body(&self) -> FiniteElementsBody<'_> {
+        FiniteElementsBody::of(self)
     }
 
     fn left_out(&self) -> Vec<LeftOut> {

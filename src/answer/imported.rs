@@ -7,7 +7,8 @@ use crate::file::{EditError, shown, with_keys, with_spiral, with_sprag};
 use crate::import::{Arc, Arcs, Drawn, FittedSpiral, FittedSprag, STANDARD_ERROR, SpiralKind};
 use crate::numeric::rounded;
 use crate::report::{Rows, Screen, Table, Unit};
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::json;
 use std::fmt::Write;
 
 /// A radius less well known than this is said to be so, m.
@@ -41,6 +42,101 @@ pub struct Imported<'a> {
     pub deviation_m: Option<f64>,
     /// The spiral that stands in the new design in place of the arcs.
     pub written: Option<FittedSpiral>,
+}
+
+/// Name of an arc, its side, and itself.
+pub type ArcRow<'a> = (String, &'a Arcs, &'a Arc);
+
+/// A side of the sprag: its arcs, and how far the points lie from them.
+#[derive(Debug, Clone, Serialize)]
+pub struct SideBody<'a> {
+    /// Each arc.
+    pub arcs: Rows<ArcRow<'a>>,
+    /// Distance of the farthest point, um.
+    pub max_um: f64,
+    /// Root mean square of the distances, um.
+    pub rms_um: f64,
+}
+
+/// An inner arc as a design file has it.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct InnerArcBody {
+    /// Radius, mm.
+    pub radius_mm: f64,
+    /// Turn of the contact up to which it reaches, rad.
+    pub until_rad: f64,
+}
+
+/// Flanks as a design file has them.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct FlanksBody {
+    /// Distance of the front one, mm.
+    pub front_mm: f64,
+    /// Tilt of the front one, rad.
+    pub front_tilt_rad: f64,
+    /// Distance of the rear one, mm.
+    pub rear_mm: f64,
+    /// Tilt of the rear one, rad.
+    pub rear_tilt_rad: f64,
+}
+
+/// The sprag found, as `[sprags]` of a design file has it.
+#[derive(Debug, Clone, Serialize)]
+pub struct FoundSprag {
+    /// Distance of the centres of the outer and the first inner arc, mm.
+    pub centre_distance_mm: f64,
+    /// The flanks.
+    pub flanks: FlanksBody,
+    /// The inner arcs from first contact on.
+    pub inner_arcs: Vec<InnerArcBody>,
+    /// Radius of the outer arc, mm.
+    pub outer_radius_mm: f64,
+}
+
+/// Keys of `import`.
+#[derive(Debug, Clone, Serialize)]
+pub struct ImportedBody<'a> {
+    /// The inner side.
+    pub inner: SideBody<'a>,
+    /// The outer side.
+    pub outer: SideBody<'a>,
+    /// What the reader of the numbers should know.
+    pub said: Vec<String>,
+    /// Spirals through the inner side.
+    pub spirals: Rows<&'a FittedSpiral>,
+    /// The sprag found.
+    pub sprags: FoundSprag,
+    /// The design file that gives all else.
+    pub template: &'a str,
+    /// Where the new design is.
+    pub written: Option<&'a str>,
+    /// The one that stands in the new design in place of the arcs.
+    pub written_spiral: Option<&'static str>,
+}
+
+impl<'a> SideBody<'a> {
+    fn of(side: &Arcs, arcs: Rows<ArcRow<'a>>) -> Self {
+        let um = |m: f64| Unit::Micrometre.from_si(felt(m));
+        Self { max_um: um(side.max_m), rms_um: um(side.rms_m), arcs }
+    }
+}
+
+impl FoundSprag {
+    fn of(found: &FittedSprag) -> Self {
+        let flanks = &found.flanks;
+        let arc = |&(radius_m, until_rad): &(f64, f64)| InnerArcBody { radius_mm: 1e3 * radius_m, until_rad };
+        Self {
+            outer_radius_mm: 1e3 * found.outer_radius_m,
+            centre_distance_mm: 1e3 * found.centre_distance_m,
+            inner_arcs: found.inner_arcs.iter().map(arc).collect(),
+            flanks: FlanksBody {
+                rear_mm: 1e3 * flanks.rear_m,
+                front_mm: 1e3 * flanks.front_m,
+                rear_tilt_rad: flanks.rear_tilt_rad,
+                front_tilt_rad: flanks.front_tilt_rad,
+            },
+        }
+    }
 }
 
 /// The design file `template` with the sprag that was found, as tangent arcs or as `spiral`, between races of `radii_m`, inner
@@ -149,11 +245,11 @@ impl Imported<'_> {
     /// The answer with the keys that all answers share; `design`: the new one; `run_time_s`: what it took, s; `written`: where
     /// the new design is.
     pub fn envelope<'a>(
-        &self,
+        &'a self,
         design: &'a Design,
         run_time_s: f64,
-        written: Option<&str>,
-    ) -> Envelope<'a, Value> {
+        written: Option<&'a str>,
+    ) -> Envelope<'a, ImportedBody<'a>> {
         let found = self.found;
         Envelope {
             design,
@@ -167,25 +263,16 @@ impl Imported<'_> {
                 "rms_um": worst(found, |a| a.rms_m),
                 "max_um": worst(found, |a| a.max_m),
             })),
-            body: json!({
-                "written": written,
-                "template": self.template,
-                "said": self.remarks(),
-                "inner": side(&found.inner, arcs(Some(&found.inner), None)),
-                "outer": side(&found.outer, arcs(None, Some(&found.outer))),
-                "spirals": spirals(found).objects(),
-                "written_spiral": self.written.map(|s| s.kind.name()),
-                "sprags": {
-                    "outer_radius_mm": 1e3 * found.outer_radius_m,
-                    "centre_distance_mm": 1e3 * found.centre_distance_m,
-                    "inner_arcs": found.inner_arcs.iter()
-                        .map(|(r, until)| json!({ "radius_mm": 1e3 * r, "until_rad": until })).collect::<Vec<_>>(),
-                    "flanks": {
-                        "rear_mm": 1e3 * found.flanks.rear_m, "front_mm": 1e3 * found.flanks.front_m,
-                        "rear_tilt_rad": found.flanks.rear_tilt_rad, "front_tilt_rad": found.flanks.front_tilt_rad,
-                    },
-                },
-            }),
+            body: ImportedBody {
+                written,
+                template: self.template,
+                said: self.remarks(),
+                inner: SideBody::of(&found.inner, arcs(Some(&found.inner), None)),
+                outer: SideBody::of(&found.outer, arcs(None, Some(&found.outer))),
+                spirals: spirals(found),
+                written_spiral: self.written.map(|s| s.kind.name()),
+                sprags: FoundSprag::of(found),
+            },
         }
     }
 
@@ -224,7 +311,7 @@ fn worst(found: &FittedSprag, of: fn(&Arcs) -> f64) -> f64 {
 }
 
 /// Arcs of both sides in a line each.
-fn arcs<'a>(inner: Option<&'a Arcs>, outer: Option<&'a Arcs>) -> Rows<(String, &'a Arcs, &'a Arc)> {
+fn arcs<'a>(inner: Option<&'a Arcs>, outer: Option<&'a Arcs>) -> Rows<ArcRow<'a>> {
     let inner = inner.into_iter().flat_map(|side| {
         side.arcs.iter().enumerate().map(move |(k, arc)| (format!("inner arc {}", k + 1), side, arc))
     });
@@ -257,10 +344,4 @@ fn spirals(found: &FittedSprag) -> Rows<&FittedSpiral> {
         .number("points", "Points", Unit::One, 6, |s| s.points)
         .number("max_um", "Farthest", Unit::Micrometre, 4, |s| felt(s.max_m))
         .number("rms_um", "rms", Unit::Micrometre, 4, |s| felt(s.rms_m))
-}
-
-/// A side of the sprag: its arcs, and how far the points lie from them.
-fn side(side: &Arcs, arcs: Rows<(String, &Arcs, &Arc)>) -> Value {
-    let um = |m: f64| Unit::Micrometre.from_si(felt(m));
-    json!({ "max_um": um(side.max_m), "rms_um": um(side.rms_m), "arcs": arcs.objects() })
 }

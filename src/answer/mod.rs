@@ -30,7 +30,6 @@ pub mod resonance;
 pub mod roll_over;
 pub mod search;
 pub mod sharing;
-mod sharing_beyond;
 pub mod sharing_scene;
 pub mod simulation;
 pub mod sizing;
@@ -40,7 +39,7 @@ pub mod sweep;
 mod under_load;
 
 use envelope::Said;
-pub use envelope::{Answer, Envelope, Finding, Provenance, TOOL, VERSION, WRITTEN_BY};
+pub use envelope::{Answer, ByAlphabet, Envelope, Finding, Provenance, TOOL, VERSION, WRITTEN_BY};
 pub use left_out::LeftOut;
 
 /// Torque of a table or scene that is suggested for a clutch, N m.

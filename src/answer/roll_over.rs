@@ -133,8 +133,8 @@ pub(super) fn followed(beyond: &Beyond) -> String {
         Fate::RolledOver => {
             let torque = Unit::NewtonMetre.show(beyond.way.last.torque_nm.max(0.0), 3);
             format!(
-                "the sprags roll over: at {at} {}, {torque} remain and the races run through at {} against one another; {} the other way would \
-                 bring them back",
+                "the sprags roll over: at {at} {}, {torque} remain and the races run through at {} against one another; \
+                 {} the other way would bring them back",
                 if beyond.way.end == OverEnd::ContactLost {
                     "contact is lost"
                 } else {

@@ -3,7 +3,7 @@
 use super::check::{
     CheckRow, REACHED_AT, far_more_than_asked, margin_words, much_friction, people_table, size_line,
 };
-use super::{Finding, Said};
+use super::{ByAlphabet, Finding, Said};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::file::shown;
@@ -12,7 +12,7 @@ use crate::margin::{Demand, Margin, load_state, lowest_capacity, scene_demand, s
 use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit, significant};
 use crate::scenario::Settings;
 use crate::size::{Decider, Made, Sized, Tried};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// A first design, with every race space that was tried.
 #[derive(Debug, Clone)]
@@ -28,6 +28,53 @@ pub struct Sizing<'a> {
     warnings: Vec<String>,
     /// Rows that are shown only, those of the scenes that do not count among them.
     shown: Vec<Margin>,
+}
+
+/// Keys of `size`.
+#[derive(Debug, Clone, Serialize)]
+pub struct SizingBody<'a> {
+    /// Drag torque in overrun, N m.
+    pub drag_torque_nm: Option<f64>,
+    /// Heat of that, W.
+    pub heat_w: Option<f64>,
+    /// One row for each limit.
+    pub margins: ByAlphabet<Vec<CheckRow>>,
+    /// Mass of sprags and races, g.
+    pub mass_g: f64,
+    /// Outside diameter, mm.
+    pub outside_mm: f64,
+    /// True: a design was found.
+    pub sized: bool,
+    /// Speed at which the races slide on the sprags there, rev/min.
+    pub sliding_rpm: Option<f64>,
+    /// Every race space tried, a row of [`tried`].
+    pub tried: Rows<(usize, &'a Tried)>,
+    /// What one should not overlook.
+    pub warnings: &'a [String],
+    /// Width of the races, mm.
+    pub width_mm: f64,
+    /// Where it was written.
+    pub written: Option<&'a str>,
+}
+
+impl<'a> SizingBody<'a> {
+    fn of(sizing: &'a Sizing<'_>) -> Self {
+        let (sized, made) = (sizing.sized, &sizing.sized.made);
+        let races = &made.design.clutch.races;
+        Self {
+            sized: true,
+            written: sizing.written,
+            outside_mm: Unit::Millimetre.from_si(2.0 * races.outer_outside_radius_m),
+            width_mm: Unit::Millimetre.from_si(races.width_m),
+            mass_g: Unit::Gram.from_si(made.mass_kg),
+            drag_torque_nm: made.drag.map(|d| d.torque_nm),
+            heat_w: made.drag.map(|d| d.heat_w()),
+            sliding_rpm: made.drag.map(|d| Unit::Rpm.from_si(d.sliding_rad_s)),
+            tried: tried(&sized.tried, Some(sized.taken)),
+            warnings: &sizing.warnings,
+            margins: ByAlphabet(made.margins.iter().map(|r| CheckRow::of(r, sizing.end_nm)).collect()),
+        }
+    }
 }
 
 impl<'a> Sizing<'a> {
@@ -69,6 +116,11 @@ impl<'a> Sizing<'a> {
 }
 
 impl Said for Sizing<'_> {
+    type Body<'a>
+        = SizingBody<'a>
+    where
+        Self: 'a;
+
     fn title(&self) -> &str {
         self.title
     }
@@ -121,22 +173,8 @@ impl Said for Sizing<'_> {
         )
     }
 
-    fn body(&self) -> Value {
-        let (sized, made) = (self.sized, &self.sized.made);
-        let races = &made.design.clutch.races;
-        json!({
-            "sized": true,
-            "written": self.written,
-            "outside_mm": Unit::Millimetre.from_si(2.0 * races.outer_outside_radius_m),
-            "width_mm": Unit::Millimetre.from_si(races.width_m),
-            "mass_g": Unit::Gram.from_si(made.mass_kg),
-            "drag_torque_nm": made.drag.map(|d| d.torque_nm),
-            "heat_w": made.drag.map(|d| d.heat_w()),
-            "sliding_rpm": made.drag.map(|d| Unit::Rpm.from_si(d.sliding_rad_s)),
-            "tried": tried(&sized.tried, Some(sized.taken)).objects(),
-            "warnings": self.warnings,
-            "margins": made.margins.iter().map(|r| CheckRow::of(r, self.end_nm)).collect::<Vec<_>>(),
-        })
+    fn body(&self) -> SizingBody<'_> {
+        SizingBody::of(self)
     }
 
     fn draw(&self, page: &mut Page) {
@@ -185,8 +223,8 @@ fn shown_broken(margins: &[Margin]) -> Vec<String> {
         let opens = rows.iter().any(|r| r.is_contact() || r.demand == Demand::NoneSuffices);
         let means = match (scene, opens) {
             (Some(scene), true) => format!(
-                "in scene {scene} the sprags lose contact for a while, which no friction prevents, and strike again; `simulate` with --scenario \
-                 {scene} shows how hard"
+                "in scene {scene} the sprags lose contact for a while, which no friction prevents, and strike again; \
+                 `simulate` with --scenario {scene} shows how hard"
             ),
             (Some(scene), false) => format!("`simulate` with --scenario {scene} shows by how much"),
             (None, _) => "`check` shows by how much".to_owned(),

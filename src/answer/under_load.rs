@@ -135,7 +135,8 @@ fn creep(clutch: &Clutch, curve: &WedgeCurve, point: &StaticPoint) -> Option<Lef
         "loss by creep of the rolling contacts",
         "the curve is that of a rising load; a falling one creeps on, while scenes go both ways on the curve",
         &format!(
-            "{} of the work of a rise and a fall {}: damping ratio {:.1e} (viscous damping of the races {:.1e}); windup {} more back at no load",
+            "{} of the work of a rise and a fall {}: damping ratio {:.1e} (viscous damping of the races {:.1e}); windup \
+             {} more back at no load",
             Unit::Percent.show(2.0 * loss.lost_j / loss.work_j, 2),
             at(point),
             loss.damping_ratio(),

@@ -4,12 +4,11 @@ use super::exit::{Exit, Failure};
 use super::interrupt::next;
 use super::sweep::PointArgs;
 use super::{Context, Run, Without, evaluate_points, output};
-use crate::answer::search::{describe_problem, evaluate_line};
+use crate::answer::search::{EvaluatedLine, describe_problem, evaluate_line};
 use crate::design::{Design, Optimize};
 use crate::optimise::{ClutchProblem, Corner, corners};
 use crate::sweep::NoSample;
 use clap::Args;
-use serde_json::Value;
 use std::io::BufRead;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -108,7 +107,7 @@ impl Run for EvaluateArgs {
             let Some(reply) = next(&place, &context.follow)? else { break };
             let (value, is_malformed) = reply?;
             malformed |= is_malformed;
-            if !output::heard(&format!("{value}\n"))? {
+            if !output::heard(&output::json_line(&value)?)? {
                 return Ok(Exit::Unheard);
             }
         }
@@ -141,7 +140,7 @@ fn refuse_of_points_alone(args: &EvaluateArgs, context: &Context) -> Result<(), 
 }
 
 /// The answer to a line, and whether the line was no vector.
-type Reply = Result<(Value, bool), Failure>;
+type Reply = Result<(EvaluatedLine, bool), Failure>;
 
 /// Hands out the lines of standard input to the threads, until there are none or nobody wants the answers.
 fn read_lines(asked: &Arc<(ClutchProblem, Optimize)>, queue: &SyncSender<Receiver<Reply>>) {

@@ -82,13 +82,21 @@ pub fn path_text(path: &Path) -> String {
     shown(&path.display().to_string())
 }
 
+/// One JSON object as a line.
+///
+/// # Errors
+/// Where `value` has no JSON form.
+pub fn json_line(value: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string(value).map_err(|e| Failure::Failed(format!("JSON: {e}")))?;
+    Ok(text + "\n")
+}
+
 /// One JSON object on one line of standard output.
 ///
 /// # Errors
 /// As [`print()`]; also where `value` has no JSON form.
 pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string(value).map_err(|e| Failure::Failed(format!("JSON: {e}")))?;
-    print(&(text + "\n"))
+    print(&json_line(value)?)
 }
 
 /// The object with tool and version before its keys.

@@ -46,8 +46,9 @@ pub fn turning_points(rows: &[[f64; 2]]) -> Vec<f64> {
     points
 }
 
-/// Engagements (peak, N m; number) of turning points and their rainflow cycles: each peak above half of the largest (Tsubakimoto, technical data of cam
-/// clutches, engagement fatigue life), and of the smaller ones each that the torque comes to from less than half of it.
+/// Engagements (peak, N m; number) of turning points and their rainflow cycles: each peak above half of the largest
+/// (Tsubakimoto, technical data of cam clutches, engagement fatigue life), and of the smaller ones each that the torque
+/// comes to from less than half of it.
 pub fn engagements(points: &[f64], swings: &[Cycle]) -> Vec<(f64, f64)> {
     let half_nm = 0.5 * points.iter().copied().fold(0.0, f64::max);
     let left = |i: usize| i == 0 || points[i - 1] < points[i];

@@ -5,17 +5,19 @@
 //! Equations: Archard's V = k int N ds, of the load that asperities carry; Carter's creep.
 //!
 //! # Overrun
-//! A sprag that rides on the inner race wears to the race's shape. What is left of it between the races is the drawn sprag, turned on until it
-//! overlaps the track by d: the lens between profile and track is the volume worn, V = (4/3) l sqrt(2 R) d^(3/2)
+//! A sprag that rides on the inner race wears to the race's shape. What is left of it between the races is the drawn
+//! sprag, turned on until it overlaps the track by d: the lens between profile and track is the volume worn,
+//! V = (4/3) l sqrt(2 R) d^(3/2)
 //! ([`flat_depth_m`]), 1/R = 1/r_i + 1/R_i, b = sqrt(2 R d) wide on either side. (As long as the sprag turns by less than R L/(2 r_i^2),
 //! L = d(gap)/d(turn), each lens holds those before it.) Engaging, the sprag pivots over the front edge of that flat, b ahead of
-//! where the drawn one would touch, until the contact has come to the tangent there: the angle of engagement is larger. The edge is blunt by
-//! [`BLUNT`] of its arc, or [`BLUNT_BY_RADIUS`]. The track is worn alike all round.
+//! where the drawn one would touch, until the contact has come to the tangent there: the angle of engagement is larger.
+//! The edge is blunt by [`BLUNT`] of its arc, or [`BLUNT_BY_RADIUS`]. The track is worn alike all round.
 //!
 //! # Engagements
-//! A contact that rolls ds under N creeps by xi ds, xi = 2 T/(pi E* l a) (Carter, small creep): each pass takes k N xi/l off the sprag and, of a
-//! place of the track, as often as a sprag passes. Twice an engagement: up and back. Over the path that is taken for a line in
-//! the turn, h_0 + h_1 t, by least squares: a parallel curve that is turned by h_1, so arcs stay arcs.
+//! A contact that rolls ds under N creeps by xi ds, xi = 2 T/(pi E* l a) (Carter, small creep): each pass takes
+//! k N xi/l off the sprag and, of a place of the track, as often as a sprag passes. Twice an engagement: up and back.
+//! Over the path that is taken for a line in the turn, h_0 + h_1 t, by least squares: a parallel curve that is turned by
+//! h_1, so arcs stay arcs.
 
 use super::{Life, LoadEffect};
 use crate::clutch::{Clutch, InnerArc, Service};
@@ -150,8 +152,8 @@ pub struct WornLife {
     pub hours: f64,
     /// States, until one is broken.
     pub states: Vec<WornState>,
-    /// The part of the life after which it would be broken with an edge as sharp as [`BLUNT`], where it has [`BLUNT_BY_RADIUS`]: straight on through
-    /// the lives with that and with one twice as blunt.
+    /// The part of the life after which it would be broken with an edge as sharp as [`BLUNT`], where it has
+    /// [`BLUNT_BY_RADIUS`]: straight on through the lives with that and with one twice as blunt.
     pub sharp_share: Option<f64>,
 }
 
@@ -349,7 +351,8 @@ impl March<'_> {
             Err(_) => return state,
         };
         let rows = load_margins(&design, &design.limits, Capacities::Wanted, &of_worn);
-        // On the edge of a flat the pressure is that of a radius which nobody knows: there a limit is reached at the force of the drawn clutch.
+        // On the edge of a flat the pressure is that of a radius which nobody knows: there a limit is reached at the
+        // force of the drawn clutch.
         let on_edge_nm = if half_flat_m > 0.0 { self.leaves_edge_nm(&of_worn) } else { 0.0 };
         let capacity = |row: &Margin| {
             let nm = row.torque_capacity_nm?;

@@ -56,7 +56,8 @@ impl Heat {
 }
 
 impl Network {
-    /// Temperatures at which what the contacts make, `heat_w`, goes to oil of `oil_c`. Linear: K (T - T_oil) = (heat, 0, 0, 0), K symmetric.
+    /// Temperatures at which what the contacts make, `heat_w`, goes to oil of `oil_c`. Linear:
+    /// K (T - T_oil) = (heat, 0, 0, 0), K symmetric.
     pub fn solve(&self, heat_w: f64, oil_c: f64) -> Option<Heat> {
         let Self { into_race: r, into_sprags: s, through_outer: o, to_oil: [i, p, e] } = *self;
         let k = Matrix4::from([
@@ -92,7 +93,8 @@ pub fn moving_strip(length_m: f64, half_m: f64, speed_m_s: f64) -> f64 {
 /// passes over the race at `speed_m_s`, for `path_m`.
 ///
 /// Heat goes straight in (no sideways flow, so too hot below Peclet numbers of some 5). The race sees each source for
-/// t_r = min(2 a, path)/v, the hottest place 1.11 q_r sqrt(t_r)/e (Blok, Jaeger); the sprag sees its middle, 4/pi of the mean, for t_s = path/v:
+/// t_r = min(2 a, path)/v, the hottest place 1.11 q_r sqrt(t_r)/e (Blok, Jaeger); the sprag sees its middle, 4/pi of
+/// the mean, for t_s = path/v:
 /// (4/pi)(2/sqrt(pi)) q_s sqrt(t_s)/e. Heat is shared so that both are equally hot (Blok's postulate).
 pub fn flash_k(flux_w_m2: f64, half_m: f64, speed_m_s: f64, path_m: f64) -> f64 {
     if speed_m_s <= 0.0 || path_m <= 0.0 {

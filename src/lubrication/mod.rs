@@ -1,9 +1,10 @@
 //! Lubricants and what a film between two rubbing bodies does: thickness, shear, heat, wear.
 //!
-//! In: viscosities, radii, moduli, loads, speeds, SI (temperatures in C). Out: film thickness with its regime, shear forces, load share of asperities,
-//! temperatures, wear depths; [`OILS`]. Absent: any clutch (`friction` puts its contact A on a film, `scenario` asks for the heat balance),
-//! starvation, churning, roughness pattern. Equations: Walther (ASTM D341), Gold's alpha, Moes' line contact, Couette and
-//! rolling shear, Nahme's reduction, Olver and Spikes' share, Blok's flash, Archard's wear.
+//! In: viscosities, radii, moduli, loads, speeds, SI (temperatures in C). Out: film thickness with its regime, shear
+//! forces, load share of asperities, temperatures, wear depths; [`OILS`]. Absent: any clutch (`friction` puts its
+//! contact A on a film, `scenario` asks for the heat balance), starvation, churning, roughness pattern. Equations:
+//! Walther (ASTM D341), Gold's alpha, Moes' line contact, Couette and rolling shear, Nahme's reduction, Olver and
+//! Spikes' share, Blok's flash, Archard's wear.
 
 mod film;
 mod heat;

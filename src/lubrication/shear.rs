@@ -18,10 +18,11 @@ pub struct Shear {
 
 /// Shear of the full film `film` between a surface that moves at `sliding_m_s` and one that stands.
 ///
-/// Couette: eta v l C with C = integral dx/h: of a rigid contact up to where the film breaks 2.0144 sqrt(2 R/h_0), of a flat one 2 a/h, together the
-/// root of the squares of both; viscosity at the mean pressure load/(l h C) by Roelands, at the walls' temperature, times
-/// [`nahme_factor`]; the stress bends round to its limit, tau/sqrt(1 + (tau/tau_L)^2) (Lee and Hamrock 1990). Rolling: integral (h/2) dp/dx dx of
-/// the rigid contact, 3.251 eta u l sqrt(2 R/h_0), u = v/2. Both against the numerical solution in `tests/lubrication.rs`.
+/// Couette: eta v l C with C = integral dx/h: of a rigid contact up to where the film breaks 2.0144 sqrt(2 R/h_0), of a
+/// flat one 2 a/h, together the root of the squares of both; viscosity at the mean pressure load/(l h C) by Roelands,
+/// at the walls' temperature, times [`nahme_factor`]; the stress bends round to its limit, tau/sqrt(1 + (tau/tau_L)^2)
+/// (Lee and Hamrock 1990). Rolling: integral (h/2) dp/dx dx of the rigid contact, 3.251 eta u l sqrt(2 R/h_0), u = v/2.
+/// Both against the numerical solution in `tests/lubrication.rs`.
 pub fn shear(
     contact: &FilmContact,
     fluid: &Fluid,

@@ -3,7 +3,7 @@
 use super::capacity::axial_from_nm;
 use super::limits::{Limit, Of, When};
 use super::overrun::{overrun_at, overrun_moments};
-use super::row::{Demand, Margin};
+use super::row::{Beyond, Demand, Margin};
 use super::table::LIMITS;
 use super::{NoMargins, curve_at_rest};
 use crate::design::{Design, Limits};
@@ -102,8 +102,8 @@ impl Reached {
     }
 
     fn row(&self, limit: &'static Limit, name: &str, value: f64, allowable: f64) -> Margin {
-        let name = row_name(name, self.torque_nm, self.end_nm);
-        Margin { name, ..Margin::new(limit, self.demand(value), allowable) }
+        let aside = not_carried(self.torque_nm, self.end_nm);
+        Margin { name: name.to_owned(), aside, ..Margin::new(limit, self.demand(value), allowable) }
     }
 }
 
@@ -236,22 +236,19 @@ pub(super) fn beyond(value: f64, torque: f64, end: f64) -> Demand {
         true => Demand::NoneSuffices,
         false => Demand::Overloaded {
             at_end: Some(value).filter(|v| v.is_finite()),
-            shortfall: Some(end / torque - 1.0),
+            beyond: Beyond::Short(end / torque - 1.0),
         },
     }
 }
 
-/// What begins the word behind a row's name that its torque is not carried.
-pub(super) const NOT_CARRIED: &str = ": not carried";
-
-/// The name of a row, with word that its torque is not carried where the curve ends below it.
-pub(super) fn row_name(name: &str, torque_nm: f64, end_nm: f64) -> String {
+/// Behind the name of a row: that its torque is not carried, where the curve ends below it.
+pub(super) fn not_carried(torque_nm: f64, end_nm: f64) -> Option<String> {
     match end_nm >= torque_nm {
-        true => name.to_owned(),
-        false => format!(
-            "{name}{NOT_CARRIED}, demand and clearance are those at the end of the curve, {end_nm:.4} Nm, the margin is at most \
+        true => None,
+        false => Some(format!(
+            "not carried, demand and clearance are those at the end of the curve, {end_nm:.4} Nm, the margin is at most \
              what the torque lacks"
-        ),
+        )),
     }
 }
 

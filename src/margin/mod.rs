@@ -25,8 +25,7 @@ pub use load::{LoadState, ends_decide, load_state, load_state_at};
 pub use overrun::{
     LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
 };
-pub(crate) use row::LOST;
-pub use row::{Demand, Margin, RESOLUTION, Rule, lowest_capacity};
+pub use row::{Beyond, Demand, Left, Margin, RESOLUTION, Rule, lowest_capacity};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
@@ -140,9 +139,9 @@ pub fn load_margins(
     rows
 }
 
-/// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where A slides and nothing is to
-/// stick (limits `keep-contact` and `lift-off` hold that). Scenarios know nothing of one another, so a caller may
-/// take them in parallel; `known`: a curve that need not be built again.
+/// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where
+/// A slides and nothing is to stick (limits `keep-contact` and `lift-off` hold that). Scenarios know nothing of one
+/// another, so a caller may take them in parallel; `known`: a curve that need not be built again.
 pub fn scene_margins(
     scenario: &Scenario,
     limits: &Limits,
@@ -159,6 +158,11 @@ pub fn scene_margins(
 /// The same margins from a demand that is known.
 pub fn scene_rows(scenario: &Scenario, found: &SceneDemand, limits: &Limits, required: bool) -> Vec<Margin> {
     scenes::rows(&scenario.name, found, limits, required)
+}
+
+/// The same margins of a scene of which nothing is known: a search has them of a neighbour that it does not follow.
+pub(crate) fn unknown_scene_rows(scenario: &Scenario, limits: &Limits) -> Vec<Margin> {
+    scenes::unknown_rows(&scenario.name, limits)
 }
 
 /// The curve of a design at rest.

@@ -1,18 +1,41 @@
 //! One row: a limit, what it demands, what is allowed, and the margin between them.
 
 use super::limits::Limit;
-use super::load::NOT_CARRIED;
 use super::table::{CONTACT, SLIP};
 
 /// Resolution of a margin: what the optimiser leaves of a limit that it stops at. A margin above minus this is
 /// held.
 pub const RESOLUTION: f64 = 1e-8;
 
-/// Margin as a number where nothing is demanded: the allowable is a million times the demand or more.
-const NOTHING_DEMANDED: f64 = 1e6;
+/// Allowable over demand from which on nothing is demanded.
+const NOTHING: f64 = 1e6;
 
-/// Margin as a number where a limit is not held whatever is demanded: no friction suffices, or what is demanded is not known.
-pub(crate) const LOST: f64 = -1.0;
+/// What is left of a limit: its margin, where that is a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Left {
+    /// So much; 0 or more is held.
+    Value(f64),
+    /// All of it: nothing is demanded, to a millionth of the allowable.
+    All,
+    /// Nothing, whatever is demanded: no friction suffices, a scene goes beyond the end of the curve, or what is demanded was not
+    /// found.
+    Lost,
+    /// Not known: [`Demand::Unknown`].
+    Unknown,
+}
+
+impl Left {
+    /// As a number in every state, by which rows are ordered, as JSON has it and as a search needs it: 1e6 of all, -1 of a lost
+    /// limit, NaN of an unknown one, which no answer has.
+    pub fn number(self) -> f64 {
+        match self {
+            Self::Value(left) => left,
+            Self::All => NOTHING,
+            Self::Lost => -1.0,
+            Self::Unknown => f64::NAN,
+        }
+    }
+}
 
 /// How a margin comes of demand and allowable; 0 or more is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,22 +75,18 @@ impl Rule {
         }
     }
 
-    /// Margin of a demand that is known; `reference` as in [`Margin`].
-    fn margin(self, demand: f64, allowable: f64, reference: f64) -> f64 {
+    /// What is left at a demand that is known; `reference` as in [`Margin`].
+    fn left(self, demand: f64, allowable: f64, reference: f64) -> Left {
         match self {
-            Self::Ratio | Self::Onset | Self::Slip => {
-                match demand.abs() * NOTHING_DEMANDED <= allowable.abs() {
-                    true => NOTHING_DEMANDED,
-                    false => allowable / demand - 1.0,
-                }
-            }
-            Self::Share if allowable > 0.0 => 1.0 - demand / allowable,
-            Self::Share => LOST,
-            Self::Reserve if demand > 0.0 => allowable / demand - 1.0,
-            Self::Reserve => 1.0,
-            Self::Clearance => allowable / reference,
-            Self::Itself => allowable,
-            Self::Difference => allowable - demand,
+            Self::Ratio | Self::Onset | Self::Slip if demand.abs() * NOTHING <= allowable.abs() => Left::All,
+            Self::Share if allowable <= 0.0 => Left::Lost,
+            Self::Ratio | Self::Onset | Self::Slip => Left::Value(allowable / demand - 1.0),
+            Self::Share => Left::Value(1.0 - demand / allowable),
+            Self::Reserve if demand > 0.0 => Left::Value(allowable / demand - 1.0),
+            Self::Reserve => Left::Value(1.0),
+            Self::Clearance => Left::Value(allowable / reference),
+            Self::Itself => Left::Value(allowable),
+            Self::Difference => Left::Value(allowable - demand),
         }
     }
 }
@@ -85,10 +104,11 @@ pub enum Demand {
     Overloaded {
         /// Demand at the end of the curve; `None` of friction, which is a demand of the whole scene.
         at_end: Option<f64>,
-        /// What the torque lacks, end/torque - 1, or -1 for a scene: the margin is at most that. `None`: the margin is
-        /// that at the end, without a jump where the end passes the torque, as a search needs it.
-        shortfall: Option<f64>,
+        /// What that leaves of the limit.
+        beyond: Beyond,
     },
+    /// Not looked at: a neighbour in a search that is not followed, so that a slope has to be found otherwise.
+    Unknown,
     /// Not known, and why: a run met its limit of work, or the clutch does not engage in the scene.
     NotComputed(&'static str),
 }
@@ -99,9 +119,20 @@ impl Demand {
         match self {
             Self::Value(value) | Self::MoreThan(value) => Some(value),
             Self::Overloaded { at_end, .. } => at_end,
-            Self::NoneSuffices | Self::NotComputed(_) => None,
+            Self::NoneSuffices | Self::NotComputed(_) | Self::Unknown => None,
         }
     }
+}
+
+/// What is left of a limit whose torque, or scene, goes beyond the end of the curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Beyond {
+    /// As much as at the end, without a jump where the end passes the torque, as a search needs it.
+    AsAtEnd,
+    /// At most what the torque lacks, end/torque - 1.
+    Short(f64),
+    /// Nothing: a scene goes there, or nothing was found up to the end.
+    Lost,
 }
 
 /// One limit of one design.
@@ -115,8 +146,10 @@ pub struct Margin {
     pub off_centre: bool,
     /// Corner of the tolerances at which the clutch stands; `None`: as drawn.
     pub corner: Option<String>,
-    /// Name for people, with what is known of this row.
+    /// Name for people.
     pub name: String,
+    /// What is said behind it where the demand is not that of its torque or scene: not carried, overloaded, not computed.
+    pub aside: Option<String>,
     /// Demand, SI.
     pub demand: Demand,
     /// Allowable, SI; of slip the friction mu_s/(1 + wanted slip margin).
@@ -139,6 +172,7 @@ impl Margin {
             off_centre: false,
             corner: None,
             name: limit.name().to_owned(),
+            aside: None,
             demand,
             allowable,
             reference: 0.0,
@@ -147,9 +181,10 @@ impl Margin {
         }
     }
 
-    /// The name without the word that its torque is not carried.
-    pub fn plain_name(&self) -> &str {
-        self.name.split(NOT_CARRIED).next().unwrap_or(&self.name)
+    /// The name with what is said behind it.
+    pub fn full_name(&self) -> String {
+        let aside = self.aside.as_ref().map_or(String::new(), |aside| format!(": {aside}"));
+        format!("{}{aside}", self.name)
     }
 
     /// Code for scripts, such as `hoop-inner`, `slip:high-6`, `run-out-grip-inner`, `contact:low-4 @ +friction`.
@@ -160,22 +195,40 @@ impl Margin {
         format!("{off_centre}{}{scene}{corner}", self.limit.code)
     }
 
-    /// Margin as a number for every state of the demand, as a search needs it; 0 or more is held, -1 whatever is demanded
-    /// where the demand is no number.
-    pub fn margin(&self) -> f64 {
-        let by_rule = |demand| self.limit.rule.margin(demand, self.allowable, self.reference);
+    /// What is left by the rule at a demand that is known.
+    fn by_rule(&self, demand: f64) -> Left {
+        self.limit.rule.left(demand, self.allowable, self.reference)
+    }
+
+    /// What is left of the limit.
+    pub fn left(&self) -> Left {
         match self.demand {
-            Demand::Value(demand) => by_rule(demand),
-            Demand::Overloaded { at_end, shortfall } => {
-                at_end.map_or(LOST, by_rule).min(shortfall.unwrap_or(f64::INFINITY))
+            Demand::Value(demand) => self.by_rule(demand),
+            Demand::Overloaded { at_end: Some(demand), beyond: Beyond::AsAtEnd } => self.by_rule(demand),
+            // Of a torque of which nothing is carried nothing is left.
+            Demand::Overloaded { at_end: Some(demand), beyond: Beyond::Short(short) } if short > -1.0 => {
+                match self.by_rule(demand) {
+                    Left::Value(left) => Left::Value(left.min(short)),
+                    Left::All => Left::Value(short),
+                    lost => lost,
+                }
             }
-            Demand::MoreThan(_) | Demand::NoneSuffices | Demand::NotComputed(_) => LOST,
+            Demand::Unknown => Left::Unknown,
+            Demand::Overloaded { .. }
+            | Demand::MoreThan(_)
+            | Demand::NoneSuffices
+            | Demand::NotComputed(_) => Left::Lost,
         }
+    }
+
+    /// The same as a number, [`Left::number`]; 0 or more is held.
+    pub fn margin(&self) -> f64 {
+        self.left().number()
     }
 
     /// Whether nothing is demanded, to a millionth of the allowable.
     pub fn demands_nothing(&self) -> bool {
-        self.margin() >= NOTHING_DEMANDED
+        self.margin() >= NOTHING
     }
 
     /// Whether the limit is held.
@@ -191,9 +244,8 @@ impl Margin {
 
     /// The same as a number for every state of the demand, as a search needs it; `None` of other limits.
     pub fn slip_measure(&self) -> Option<f64> {
-        let margin = self.margin();
-        let wanted = if margin > LOST { self.reference } else { 0.0 };
-        self.is_slip().then_some((1.0 + margin) * (1.0 + wanted) - 1.0)
+        let wanted = if self.left() == Left::Lost { 0.0 } else { self.reference };
+        self.is_slip().then_some((1.0 + self.margin()) * (1.0 + wanted) - 1.0)
     }
 
     /// Whether it is the friction that a scenario needs.
@@ -231,10 +283,10 @@ impl Margin {
     /// Whether its torque lies beyond the end of the curve and nothing up to there breaks it: its margin is no more than what the torque
     /// lacks. The end of the curve itself is reached there.
     pub fn is_not_reached(&self) -> bool {
-        let Demand::Overloaded { at_end: Some(demand), shortfall: Some(short) } = self.demand else {
+        let Demand::Overloaded { at_end: Some(demand), beyond: Beyond::Short(short) } = self.demand else {
             return false;
         };
-        short > LOST && self.limit.rule.margin(demand, self.allowable, self.reference) > short.max(RESOLUTION)
+        short > -1.0 && self.by_rule(demand).number() > short.max(RESOLUTION)
     }
 
     /// Demand in the limit's unit, where it is a number; beyond the end of the curve that at the end.

@@ -1,7 +1,7 @@
 //! Limits that follow from the scenarios: slip margin, contact margin, Hertz pressure.
 
 use super::limits::{Limit, Of};
-use super::row::{Demand, LOST, Margin};
+use super::row::{Beyond, Demand, Margin};
 use super::table::LIMITS;
 use crate::clutch::Scenario;
 use crate::design::Limits;
@@ -25,12 +25,6 @@ impl SceneDemand {
         let peak = prepared.model.curve.at_normal(found.normal_max_n[0]);
         let static_friction = scene.clutch.friction.static_;
         Self { demand: Ok(found), static_friction, hertz_peak_pa: peak.map_or(0.0, |r| r.hertz_inner_pa) }
-    }
-
-    /// Of a scene of which nothing is known but that it has a demand: no number of it is one.
-    pub fn unknown(scene: &Scenario) -> Self {
-        let static_friction = scene.clutch.friction.static_;
-        Self { demand: Ok(scenario::RollingDemand::UNKNOWN), static_friction, hertz_peak_pa: f64::NAN }
     }
 
     /// What rolling demands, where that ran to its end.
@@ -70,7 +64,7 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
     // What is demanded unless the run or the curve came to its end before.
     let demand = |known: Demand| match (not_computed, &overload) {
         (Some(why), _) => Demand::NotComputed(why),
-        (None, Some(_)) => Demand::Overloaded { at_end: known.value(), shortfall: Some(LOST) },
+        (None, Some(_)) => Demand::Overloaded { at_end: known.value(), beyond: Beyond::Lost },
         (None, None) => known,
     };
     let row = |limit: &&'static Limit| {
@@ -92,19 +86,29 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
             }
             _ => return None,
         };
-        let what = limit.name().replace("{scene}", name);
-        let name_for_people = match (not_computed, &overload) {
-            (Some(why), _) => format!("{what}: not computed, {why}"),
-            (None, Some(why)) => format!("{what}: overloaded, {why}"),
-            (None, None) => what,
+        let aside = match (not_computed, &overload) {
+            (Some(why), _) => Some(format!("not computed, {why}")),
+            (None, Some(why)) => Some(format!("overloaded, {why}")),
+            (None, None) => None,
         };
-        Some(Margin {
-            scene: Some(name.to_owned()),
-            name: name_for_people,
-            reference,
-            required,
-            ..Margin::new(limit, demand(known), allowable)
-        })
+        let row = Margin { aside, reference, ..Margin::new(limit, demand(known), allowable) };
+        Some(of_scene(row, name, required))
     };
     LIMITS.iter().filter_map(row).collect()
+}
+
+/// The same rows of a scene of which nothing is known.
+pub(super) fn unknown_rows(name: &str, limits: &Limits) -> Vec<Margin> {
+    let is_there = |limit: &&&Limit| match limit.of {
+        Of::Slip | Of::Contact => true,
+        Of::ScenePressure => limits.hertz_peak_pa.is_some(),
+        _ => false,
+    };
+    let row = |limit: &&'static Limit| of_scene(Margin::new(limit, Demand::Unknown, 0.0), name, true);
+    LIMITS.iter().filter(is_there).map(row).collect()
+}
+
+fn of_scene(row: Margin, scene: &str, required: bool) -> Margin {
+    let name = row.name.replace("{scene}", scene);
+    Margin { scene: Some(scene.to_owned()), name, required, ..row }
 }

@@ -1,8 +1,8 @@
 //! The worst of unlike sprags against the limits that hold for all, over a turn of the races.
 
 use super::limits::{Of, When};
-use super::load::{LoadState, row_name};
-use super::row::{Demand, Margin};
+use super::load::{LoadState, not_carried};
+use super::row::{Beyond, Demand, Margin};
 use super::table::LIMITS;
 use crate::design::{Design, Limits};
 use crate::margin::Capacities;
@@ -51,7 +51,7 @@ pub fn unlike_margins(
             (Some((value, _)), false) => Demand::Value(value),
             (value, _) => Demand::Overloaded {
                 at_end: value.map(|(value, _)| value),
-                shortfall: Some((end_nm / torque - 1.0).min(0.0)),
+                beyond: Beyond::Short((end_nm / torque - 1.0).min(0.0)),
             },
         };
         let over = |torque: f64| {
@@ -62,7 +62,8 @@ pub fn unlike_margins(
         };
         let who = found.map_or("none carries".to_owned(), |(_, i)| format!("sprag {}", i + 1));
         rows.push(Margin {
-            name: row_name(&format!("{}: {who}", limit.name()), torque, end_nm),
+            name: format!("{}: {who}", limit.name()),
+            aside: not_carried(torque, end_nm),
             torque_capacity_nm: (capacities == Capacities::Wanted)
                 .then(|| capacity(&turn, state, torque, end_nm, &over))
                 .flatten(),

@@ -6,7 +6,7 @@ use super::outcome::Outcome;
 use super::problem::{Assessment, ClutchProblem};
 use super::settings::Settings;
 use crate::file::variable_unit;
-use crate::margin::{Demand, Margin, Rule, When, courses, load_state};
+use crate::margin::{Beyond, Demand, Margin, Rule, When, courses, load_state};
 
 /// Torque step, relative, over which the slope of a demand is taken below the torque where its limit is reached.
 const STEP: f64 = 1e-4;
@@ -96,7 +96,7 @@ pub(super) fn prices(
 fn ratio_of(row: &Margin) -> Option<f64> {
     let ratio = match (row.limit.rule, row.demand) {
         (Rule::Ratio | Rule::Onset | Rule::Slip, Demand::Value(_)) => !row.demands_nothing(),
-        (Rule::Ratio, Demand::Overloaded { shortfall: None, .. }) => !row.demands_nothing(),
+        (Rule::Ratio, Demand::Overloaded { beyond: Beyond::AsAtEnd, .. }) => !row.demands_nothing(),
         (Rule::Reserve, Demand::Value(demand)) => demand > 0.0,
         // 1 - demand/allowable is that too at the limit, to the square of the margin.
         (Rule::Share, Demand::Value(_)) => row.margin().abs() <= 1e-3,

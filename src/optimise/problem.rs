@@ -364,7 +364,7 @@ impl ClutchProblem {
             let rows = rows.collect::<Vec<_>>().concat();
             // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
             match rows.iter().find(|r| !r.computed()) {
-                Some(row) => Err(NoEvaluation::Refused(row.name.clone())),
+                Some(row) => Err(NoEvaluation::Refused(row.full_name())),
                 None => Ok(rows),
             }
         };

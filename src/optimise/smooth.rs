@@ -2,7 +2,9 @@
 //! what would otherwise be a wall.
 
 use crate::design::{Design, Limits};
-use crate::margin::{Capacities, Demand, END_OF_PROFILE, LIMITS, LoadState, Margin, When, load_margins};
+use crate::margin::{
+    Beyond, Capacities, Demand, END_OF_PROFILE, LIMITS, LoadState, Margin, When, load_margins,
+};
 use crate::profile::Outline;
 
 /// Half width that flanks keep beyond what the profile needs, and short of what its arcs reach: a choice. Races under
@@ -29,7 +31,8 @@ pub(super) fn load_rows(
         let Demand::Overloaded { at_end, .. } = row.demand else { continue };
         let ends = row.limit == &END_OF_PROFILE;
         let shortfall = limits.peak_torque_nm.filter(|_| ends).map(|torque| profile_short(state, torque));
-        row.demand = Demand::Overloaded { at_end, shortfall };
+        let beyond = shortfall.map_or(Beyond::AsAtEnd, Beyond::Short);
+        row.demand = Demand::Overloaded { at_end, beyond };
     }
     rows
 }

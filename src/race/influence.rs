@@ -43,9 +43,10 @@ impl Race {
 }
 
 impl Race {
-    /// Frequency of its lowest bending mode, two waves around, Hz; 0 for a ring without a response to it. By Rayleigh's quotient with the shape
-    /// under the load cos 2 theta on the track: stiffness of that load, mass rho A pi R (1 + 1/m^2) of an inextensible ring of mean radius R, so
-    /// that of a thin ring is Love's, *Mathematical Theory of Elasticity*, art. 293: f^2 = E I m^2 (m^2 - 1)^2/(rho A R^4 (m^2 + 1))/(2 pi)^2.
+    /// Frequency of its lowest bending mode, two waves around, Hz; 0 for a ring without a response to it. By Rayleigh's
+    /// quotient with the shape under the load cos 2 theta on the track: stiffness of that load, mass
+    /// rho A pi R (1 + 1/m^2) of an inextensible ring of mean radius R, so that of a thin ring is Love's, *Mathematical Theory of
+    /// Elasticity*, art. 293: f^2 = E I m^2 (m^2 - 1)^2/(rho A R^4 (m^2 + 1))/(2 pi)^2.
     pub fn lowest_mode_hz(&self) -> f64 {
         const M: f64 = 2.0;
         let influence = self.influence();

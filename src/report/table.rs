@@ -2,7 +2,7 @@
 
 use super::number::{MISSING, Unit, significant};
 use super::page::escape;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
 /// One column.
@@ -276,17 +276,24 @@ impl<T> Rows<T> {
     }
 
     /// JSON: an object for each row, under the keys of the columns and those that it alone has.
-    pub fn objects(self) -> Vec<Value> {
+    pub fn objects(&self) -> Vec<Value> {
         let mut rows = self.table.objects();
-        for (row, more) in rows.iter_mut().zip(self.json) {
-            row.extend(more);
+        for (row, more) in rows.iter_mut().zip(&self.json) {
+            row.extend(more.clone());
         }
         rows.into_iter().map(Value::Object).collect()
     }
 
     /// The object of the first row; null without one.
-    pub fn object(self) -> Value {
+    pub fn object(&self) -> Value {
         self.objects().into_iter().next().unwrap_or_default()
+    }
+}
+
+/// As [`Rows::objects`].
+impl<T> Serialize for Rows<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.objects().serialize(serializer)
     }
 }
 

@@ -41,23 +41,6 @@ pub struct RollingDemand {
     pub rhs_evaluations: u64,
 }
 
-impl RollingDemand {
-    /// Of a scene of which nothing is known but that it has a demand.
-    pub const UNKNOWN: Self = Self {
-        required_friction: Some(f64::NAN),
-        by_bisection: false,
-        slip_margin: None,
-        contact_margin: f64::NAN,
-        normal_max_n: [f64::NAN; 2],
-        finished: true,
-        overloaded: false,
-        never_engages: false,
-        gave_up: None,
-        interrupted: false,
-        rhs_evaluations: 0,
-    };
-}
-
 /// Steps per period at least: six looks in each see every half wave. Tolerances below 1e-4 take shorter ones anyway.
 pub(super) const STEPS_PER_PERIOD: f64 = 4.0;
 /// The same where peaks of a single run must be good to a hundredth of the tolerance.
@@ -156,10 +139,16 @@ fn at_rest(prepared: &Prepared) -> RollingDemand {
     let required = f.map(|f| f.required_friction());
     RollingDemand {
         required_friction: required,
+        by_bisection: false,
         slip_margin: slip_margin(&prepared.model, required),
         contact_margin: 1.0,
         normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
-        ..RollingDemand::UNKNOWN
+        finished: true,
+        overloaded: false,
+        never_engages: false,
+        gave_up: None,
+        interrupted: false,
+        rhs_evaluations: 0,
     }
 }
 

@@ -315,7 +315,7 @@ pub(super) fn row(r: &Margin, end_torque_nm: Option<f64>) -> MarginRow {
     let early = end_torque_nm.filter(|_| r.is_not_reached());
     MarginRow {
         code: r.code(),
-        name: format!("{}. {}", r.name, r.limit.explanation),
+        name: format!("{}. {}", r.full_name(), r.limit.explanation),
         against: match (early, in_place_of_margin(r)) {
             (Some(end_nm), _) => format!("the curve ends at {}", Unit::NewtonMetre.show(end_nm, 4)),
             (None, Some(_)) => String::new(),

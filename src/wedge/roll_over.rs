@@ -170,8 +170,8 @@ impl Way {
         Some(Seat { shift: seat.shift + (alpha - raw.alpha.v), ..seat })
     }
 
-    /// `seat` at `from` with the body fixed as it gives there: near the highest place the turn, and with it what an outline gives, goes with the root
-    /// of the force, which no equilibrium at a given force follows.
+    /// `seat` at `from` with the body fixed as it gives there: near the highest place the turn, and with it what an
+    /// outline gives, goes with the root of the force, which no equilibrium at a given force follows.
     fn with_fixed_body(&mut self, seat: Seat, from: [f64; 2]) -> Option<Seat> {
         let turn = self.closure(&seat, from[0])?.turn_rad(self.seats[0][0][0].profile.beta0_rad);
         let rolled_m = self.seats[0][1][0].rolled_m(seat.k, Dual::constant(turn)).v;
@@ -408,8 +408,8 @@ impl WedgeCurve {
         }
     }
 
-    /// The extreme (`sign` 1: largest, -1: least) of the torque beside `coarse`, by golden sections of the piece in which that lies; the pieces
-    /// begin at `begins` (alpha).
+    /// The extreme (`sign` 1: largest, -1: least) of the torque beside `coarse`, by golden sections of the piece in
+    /// which that lies; the pieces begin at `begins` (alpha).
     fn sharpened(&self, coarse: OverPoint, begins: &[f64], sign: f64) -> OverPoint {
         const SHARE: f64 = 0.618_033_988_749_894_9;
         let mut best = coarse;

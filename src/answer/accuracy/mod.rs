@@ -94,7 +94,7 @@ impl<'d> AccuracyStudy<'d> {
 
 impl Answer for AccuracyStudy<'_> {
     type Body<'a>
-        = AccuracyBody
+        = AccuracyBody<'a>
     where
         Self: 'a;
 
@@ -119,7 +119,7 @@ impl Answer for AccuracyStudy<'_> {
         page::page(self, provenance)
     }
 
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, AccuracyBody> {
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, AccuracyBody<'_>> {
         let worst = self.scenes.iter().map(|s| s.reference_error[0]).fold(0.0, f64::max);
         Envelope {
             design: self.design,

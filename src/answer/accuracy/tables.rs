@@ -6,7 +6,7 @@ use crate::accuracy::{Precision, Scheme, WorkPoint};
 use crate::report::{Rows, Screen, Table, Unit};
 
 /// A point of a method in a scene.
-pub(super) type Point<'a> = (&'a Precision, Scheme, &'a WorkPoint);
+pub type Point<'a> = (&'a Precision, Scheme, &'a WorkPoint);
 
 /// Every point of `scene`.
 pub(super) fn points_of(scene: &Precision) -> impl Iterator<Item = Point<'_>> {

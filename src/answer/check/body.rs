@@ -3,7 +3,7 @@
 use super::overrun::OverrunSection;
 use super::{run_out, running};
 use crate::answer::stiffness::CurveEnd;
-use crate::margin::{Demand, Margin, Rule, When, lowest_capacity};
+use crate::margin::{Demand, Left, Margin, Rule, When, lowest_capacity};
 use crate::report::{Cell, Rows, Table, Unit, greek, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
@@ -90,7 +90,7 @@ impl Capacity {
         let counts = |r: &Margin| counts(r) && !ends_first(r, end_torque_nm);
         lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Self {
             code: r.code(),
-            name: r.plain_name().to_owned(),
+            name: r.name.clone(),
             torque_capacity_nm,
         })
     }
@@ -180,7 +180,7 @@ impl CheckBody {
             pass: required().all(Margin::held),
             deciding: required().min_by(nearest_first).map(|r| Deciding {
                 code: r.code(),
-                name: r.name.clone(),
+                name: r.full_name(),
                 margin: r.margin(),
                 words: margin_words(r),
             }),
@@ -298,8 +298,9 @@ impl CheckBody {
     pub fn other_remarks(&self) -> Vec<String> {
         let early = (self.end.torque_nm < self.asked_nm).then(|| {
             format!(
-                "The curve ends ({}) at {}, below the {} asked: limits beyond are not reached, which counts as not held, whatever they would \
-                 allow; a number there is a margin that is broken before (in JSON and CSV at most what the torque lacks, end/torque − 1)",
+                "The curve ends ({}) at {}, below the {} asked: limits beyond are not reached, which counts as not held, \
+                 whatever they would allow; a number there is a margin that is broken before (in JSON and CSV at most \
+                 what the torque lacks, end/torque − 1)",
                 self.end.reason,
                 Unit::NewtonMetre.show(self.end.torque_nm, 4),
                 Unit::NewtonMetre.show_plain(self.asked_nm, 4)
@@ -322,7 +323,7 @@ impl CheckRow {
     pub fn of(r: &Margin, end_torque_nm: f64) -> Self {
         Self {
             code: r.code(),
-            name: r.name.clone(),
+            name: r.full_name(),
             demand: r.demand_in_unit().filter(|_| !r.overloaded()),
             allowable: r.shown_allowable(),
             unit: r.limit.unit,
@@ -378,7 +379,7 @@ pub fn demand_cell(r: &Margin) -> Cell {
         Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
         Demand::Overloaded { at_end: None, .. } => OVERLOADED.into(),
         Demand::NoneSuffices => NONE_SUFFICES.into(),
-        Demand::NotComputed(_) => NOT_COMPUTED.into(),
+        Demand::NotComputed(_) | Demand::Unknown => NOT_COMPUTED.into(),
     }
 }
 
@@ -401,12 +402,12 @@ pub fn unit_cell(r: &Margin) -> Cell {
     }
 }
 
-/// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies beyond the end of the curve, its
-/// torque does and nothing breaks it before, or a run met its limit of work.
+/// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies
+/// beyond the end of the curve, its torque does and nothing breaks it before, or a run met its limit of work.
 pub fn in_place_of_margin(r: &Margin) -> Option<&'static str> {
     match r.demand {
         Demand::NoneSuffices => Some(NONE),
-        Demand::Overloaded { .. } if r.margin() <= -1.0 => Some(OVERLOADED),
+        Demand::Overloaded { .. } if r.left() == Left::Lost => Some(OVERLOADED),
         _ if r.is_not_reached() => Some(NOT_REACHED),
         Demand::NotComputed(_) => Some(NOT_COMPUTED),
         _ => None,

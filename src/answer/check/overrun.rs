@@ -374,11 +374,12 @@ impl OverrunSection {
             }
             (true, None) => format!("Sprags keep contact in overrun up to {searched_to_rpm:.0} rpm at least"),
             (false, Some(rpm)) => format!(
-                "No speed of the outer race is named; if it turned in overrun, sprags would lift off the inner race at {rpm:.0} rpm of it{why}"
+                "No speed of the outer race is named; if it turned in overrun, sprags would lift off the inner race at \
+                 {rpm:.0} rpm of it{why}"
             ),
             (false, None) => format!(
-                "No speed of the outer race is named; if it turned in overrun, sprags would keep contact up to {searched_to_rpm:.0} rpm of it \
-                 at least"
+                "No speed of the outer race is named; if it turned in overrun, sprags would keep contact up to \
+                 {searched_to_rpm:.0} rpm of it at least"
             ),
         }
     }

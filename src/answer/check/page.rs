@@ -44,8 +44,8 @@ pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
     );
     page.heading("Margins");
     page.table(
-        "Margin = allowable / demand − 1, but for the rows that the last table of this page gives another rule; held from 0 up. “Reached at” is \
-         the torque at which the limit would be reached (>: not before the curve ends).",
+        "Margin = allowable / demand − 1, but for the rows that the last table of this page gives another rule; held from \
+         0 up. “Reached at” is the torque at which the limit would be reached (>: not before the curve ends).",
         &people_table(&check.rows, end_nm),
     );
     page.list(remarks.into_iter().chain(pressures(&check.rows)).chain(asides(design, &check.rows)));
@@ -69,7 +69,8 @@ pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
     page.figures(&[
         (half(tangents), "Static demand on friction at both contacts; grip is lost where it reaches μs."),
         (half(angles), "The same as angles: ω and ν lie between the strut AB and OA, OB; friction holds up to arctan μs."),
-        (half(rise), "Cam rise: the undeformed sprag's height from A to B over its rotation, and the gap AB that remains under load. What lies between them is pressed in at both contacts and in the body."),
+        (half(rise), "Cam rise: the undeformed sprag's height from A to B over its rotation, and the gap AB that remains \
+            under load. What lies between them is pressed in at both contacts and in the body."),
         (centres, "Arc centres and centroid in the body frame (origin Cₑ)."),
     ]);
     if let Some(running) = &answer.body.running {
@@ -107,8 +108,8 @@ fn names(rows: &[Margin]) -> Table {
             Some(_) => format!("{}:SCENE", r.limit.code),
             None => r.code(),
         };
-        let name =
-            r.scene.as_ref().map_or(r.name.clone(), |scene| r.name.replace(scene.as_str(), "the scene"));
+        let name = r.full_name();
+        let name = r.scene.as_ref().map_or(name.clone(), |scene| name.replace(scene.as_str(), "the scene"));
         if seen.contains(&code) {
             continue;
         }

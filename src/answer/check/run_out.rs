@@ -159,8 +159,8 @@ impl RunOutSection {
                 None => String::new(),
             };
             format!(
-                "Off centre at {} torque: largest normal force {} of the mean (at most {} if the rings stay round; {}), {} of {} sprags without load, bearings \
-                 hold {}{shift}",
+                "Off centre at {} torque: largest normal force {} of the mean (at most {} if the rings stay round; {}), \
+                 {} of {} sprags without load, bearings hold {}{shift}",
                 at.torque,
                 significant(at.largest_share, 4),
                 significant(at.largest_share_rigid, 4),

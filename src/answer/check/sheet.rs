@@ -22,8 +22,8 @@ pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
     page.heading("Margins");
     let statics = check.rows.get(..check.static_rows).unwrap_or(&check.rows);
     page.table(
-        "Margin = allowable / demand − 1 (the page of check says which have another rule); held from 0 up. Reached at: torque at which the limit \
-         would be reached; >: not before the curve ends.",
+        "Margin = allowable / demand − 1 (the page of check says which have another rule); held from 0 up. Reached at: \
+         torque at which the limit would be reached; >: not before the curve ends.",
         &people_table(statics, end_nm),
     );
     page.list(remarks.into_iter().chain(pressures(&check.rows)).chain(asides(design, &check.rows)));

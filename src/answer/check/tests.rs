@@ -3,7 +3,7 @@
 use super::body::*;
 use super::overrun::OverrunSection;
 use crate::design::Design;
-use crate::margin::{Demand, Margin, OverrunCurve, limit_of};
+use crate::margin::{Beyond, Demand, Margin, OverrunCurve, limit_of};
 use crate::report::Screen;
 use crate::wedge::EndReason;
 
@@ -67,7 +67,7 @@ fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
     assert!(shown["demand"].is_null() && shown["margin"] == -1.0 && shown["slip_margin"].is_null());
     let text = |rows: &[Margin]| people_table(rows, 200.0).to_text(Screen::default());
     assert!(text(&rows).contains(NONE_SUFFICES) && !text(&rows).contains(OVERLOADED));
-    let overloaded = Demand::Overloaded { at_end: None, shortfall: Some(-1.0) };
+    let overloaded = Demand::Overloaded { at_end: None, beyond: Beyond::Lost };
     let beyond = [Margin { demand: overloaded, ..rows[0].clone() }];
     assert!(text(&beyond).contains(OVERLOADED) && !text(&beyond).contains(NONE_SUFFICES));
     let unknown = [Margin { demand: Demand::NotComputed("step limit"), ..rows[0].clone() }];

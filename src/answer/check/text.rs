@@ -11,10 +11,12 @@ use crate::report::{Screen, Unit, greek, significant};
 pub(crate) const REACHED_AT: &str =
     "Reached at: torque at which the limit would be reached; >: not before the curve ends";
 /// What the margin of a slip row is.
-const SLIP_MARGIN: &str = "Slip rows: demand is the static friction μ that the scene requires; margin the slip margin, static over required friction less 1, held from the wanted one up\n";
+const SLIP_MARGIN: &str = "Slip rows: demand is the static friction μ that the scene requires; margin the slip margin, \
+    static over required friction less 1, held from the wanted one up\n";
 
 /// What a row that is not required is.
-const SHOWN_ONLY: &str = "Shown: for information alone, without a say in the verdict; `explain` with the limit's name says which key makes it count\n";
+const SHOWN_ONLY: &str = "Shown: for information alone, without a say in the verdict; `explain` with the limit's name \
+    says which key makes it count\n";
 
 /// The answer on a terminal.
 pub(super) fn text(check: &CheckAnswer, screen: Screen) -> String {
@@ -59,8 +61,8 @@ pub(super) fn pressures(rows: &[Margin]) -> Vec<String> {
         let [nominal, peak] = [nominal, peak].map(|mpa| significant(mpa, 4));
         (nominal != peak).then(|| {
             format!(
-                "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) at nominal torque, which comes again and again; {peak} MPa \
-                 (hertz_peak_mpa) at peak torque and in scenes, which come seldom"
+                "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) at nominal torque, which comes again \
+                 and again; {peak} MPa (hertz_peak_mpa) at peak torque and in scenes, which come seldom"
             )
         })
     });

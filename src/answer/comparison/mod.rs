@@ -1,8 +1,13 @@
 //! What a comparison of designs answers: inputs that differ, margins, figures, scenes.
 
+mod body;
 mod figures;
 mod page;
 mod tables;
+
+pub use body::{
+    ComparedDesign, ComparedFigure, ComparedInput, ComparedMargin, ComparedScene, ComparisonBody, InputValue,
+};
 
 use super::check::{fine, margin_text};
 use super::left_out::left_out_of;
@@ -12,8 +17,7 @@ use crate::design::Design;
 use crate::file::Input;
 use crate::follow::{Follow, News};
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin, NoMargins};
-use crate::report::{Page, Rows, Screen, Table, Unit, greek};
-use serde_json::{Value, json};
+use crate::report::{Page, Screen, Table, Unit, greek};
 use std::path::Path;
 
 /// Designs with all that differs.
@@ -85,43 +89,11 @@ impl<'a> Comparison<'a> {
             files,
         })
     }
-
-    fn json(&self) -> Value {
-        let designs = Rows::of(self.subjects.iter().zip(self.files))
-            .json("name", |(s, _)| s.design.name.as_str())
-            .json("file", |(_, file)| file.as_str())
-            .json("design_hash", |(s, _)| s.design.hash.as_str())
-            .json("pass", |(s, _)| s.held())
-            .json("deciding", |(s, _)| s.deciding().map(|m| m.code()));
-        let inputs = Rows::of(&self.inputs)
-            .json("path", |row| row.key.as_str())
-            .json("unit", |row| unit_of(row))
-            .json("values", |row| values(row, |i| i.number.map_or_else(|| json!(i.text), |n| json!(n))));
-        let figures = Rows::of(&figures::FIGURES)
-            .json("key", |f| f.key)
-            .json("unit", |f| f.unit.symbol())
-            .json("values", |f| self.subjects.iter().map(|s| f.shown(s)).collect::<Vec<_>>());
-        let margins = Rows::of(&self.margins)
-            .json("code", |row| row.key.as_str())
-            .json("required", |row| values(row, |m| m.required))
-            .json("held", |row| values(row, |m| m.held()))
-            .json("margins", |row| values(row, |m| m.margin()))
-            .json("torque_capacities_nm", |row| values(row, |m| m.torque_capacity_nm));
-        let scenes = Rows::of(&self.scenes)
-            .json("name", |row| row.key.as_str())
-            .json("required_friction", |row| values(row, |s| tables::required_friction(s)))
-            .json("slip_margin", |row| values(row, |s| s.found.slip_margin()))
-            .json("contact_margin", |row| values(row, |s| s.found.contact_margin()));
-        json!({
-            "designs": designs.objects(), "inputs": inputs.objects(), "figures": figures.objects(), "margins": margins.objects(),
-            "scenes": scenes.objects(),
-        })
-    }
 }
 
 impl Answer for Comparison<'_> {
     type Body<'a>
-        = Value
+        = ComparisonBody<'a>
     where
         Self: 'a;
 
@@ -162,15 +134,10 @@ impl Answer for Comparison<'_> {
         page::page(self, provenance)
     }
 
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
-        let left_out = left_out_of(self.first);
-        Envelope { design: self.first, run_time_s, left_out, error_estimate: None, body: self.json() }
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, ComparisonBody<'_>> {
+        let (design, left_out) = (self.first, left_out_of(self.first));
+        Envelope { design, run_time_s, left_out, error_estimate: None, body: ComparisonBody::of(self) }
     }
-}
-
-/// One value of each design; none of a design without it.
-fn values<T, V>(row: &SideBySide<T>, value: impl Fn(&T) -> V) -> Vec<Option<V>> {
-    row.values.iter().map(|v| v.as_ref().map(&value)).collect()
 }
 
 /// Unit of an input; empty for a pure number.

@@ -89,8 +89,9 @@ fn profiles(page: &mut Page, compared: &Comparison<'_>) {
     let other = compared.subjects.iter().any(|s| !alike(s, now));
     let words = match other {
         true => {
-            "The sprag of B between its races, to scale, and the others dashed over it at the same scale, laid so that all touch the inner race of B \
-                 at the same point, A, in the same direction; their own races are of other radii. Dimensions are those of B."
+            "The sprag of B between its races, to scale, and the others dashed over it at the same scale, laid so that \
+             all touch the inner race of B at the same point, A, in the same direction; their own races are of other \
+             radii. Dimensions are those of B."
         }
         false => {
             "The sprag of B between its races, to scale, and the others dashed over it; dimensions are those of B."

@@ -1,10 +1,12 @@
 //! What an identification answers: unknowns with their intervals, residuals, what the data cannot tell apart.
 
+mod body;
 mod plot;
 mod stopped;
 mod tables;
 
-pub use stopped::StoppedIdentification;
+pub use body::{IdentificationBody, UnknownRow};
+pub use stopped::{StoppedBody, StoppedIdentification, UnknownBody};
 
 use super::{Finding, Said, VERSION, WRITTEN_BY};
 use crate::design::Design;
@@ -47,6 +49,11 @@ impl Identification<'_> {
 }
 
 impl Said for Identification<'_> {
+    type Body<'a>
+        = IdentificationBody<'a>
+    where
+        Self: 'a;
+
     fn title(&self) -> &str {
         "Identification"
     }
@@ -76,14 +83,8 @@ impl Said for Identification<'_> {
         format!("{}\n{}", estimates(self.found).table().to_text(screen), self.table().to_text(screen))
     }
 
-    fn body(&self) -> Value {
-        let (found, k) = (self.found, &self.found.knowledge);
-        json!({
-            "unknowns": estimates(found).objects(), "correlation": k.correlation, "observations": residuals(found).objects(),
-            "residual_sigma": k.residual_sigma, "degrees_of_freedom": k.freedom, "singular_ratio": k.singular_ratio,
-            "sums_of_squares": found.sums.0, "evaluations": found.evaluations, "converged": found.converged,
-            "determined": self.is_held(), "remarks": self.remarks(), "written": self.written,
-        })
+    fn body(&self) -> IdentificationBody<'_> {
+        IdentificationBody::of(self)
     }
 
     fn error_estimate(&self) -> Option<Value> {

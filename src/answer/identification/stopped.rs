@@ -5,7 +5,7 @@ use crate::answer::Envelope;
 use crate::answer::left_out::left_out_of;
 use crate::design::Design;
 use crate::identify::{SoFar, Unknown};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// The best design of an identification that was stopped.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +16,36 @@ pub struct StoppedIdentification<'a> {
     pub unknowns: &'a [Unknown],
     /// The best design so far.
     pub so_far: &'a SoFar,
+}
+
+/// An unknown with its best value, in the unit of its name.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct UnknownBody<'a> {
+    /// Largest value looked at.
+    pub max: f64,
+    /// Least value looked at.
+    pub min: f64,
+    /// Name, its unit at the end.
+    pub name: &'a str,
+    /// The best so far.
+    pub value: f64,
+}
+
+/// Keys of an identification that was stopped.
+#[derive(Debug, Clone, Serialize)]
+pub struct StoppedBody<'a> {
+    /// False: the search has not ended.
+    pub converged: bool,
+    /// Designs held against every row of the fit until then.
+    pub evaluations: usize,
+    /// True: it was stopped.
+    pub interrupted: bool,
+    /// Sum of the squared scaled residuals.
+    pub sum_of_squares: f64,
+    /// Each unknown.
+    pub unknowns: Vec<UnknownBody<'a>>,
+    /// Where the design was written.
+    pub written: Option<&'a str>,
 }
 
 impl<'a> StoppedIdentification<'a> {
@@ -48,15 +78,17 @@ impl<'a> StoppedIdentification<'a> {
     }
 
     /// The answer with the keys that all answers share.
-    pub fn envelope(&self, run_time_s: f64, written: Option<&str>) -> Envelope<'a, Value> {
-        let unknowns: Vec<_> = self
-            .named()
-            .map(|(u, value)| json!({ "name": u.name, "min": u.min, "max": u.max, "value": value }))
-            .collect();
-        let body = json!({
-            "interrupted": true, "converged": false, "unknowns": unknowns, "sum_of_squares": self.so_far.sum,
-            "evaluations": self.so_far.evaluations, "written": written,
-        });
+    pub fn envelope(&self, run_time_s: f64, written: Option<&'a str>) -> Envelope<'a, StoppedBody<'a>> {
+        let unknown =
+            |(u, &value): (&'a Unknown, &f64)| UnknownBody { name: &u.name, min: u.min, max: u.max, value };
+        let body = StoppedBody {
+            interrupted: true,
+            converged: false,
+            unknowns: self.named().map(unknown).collect(),
+            sum_of_squares: self.so_far.sum,
+            evaluations: self.so_far.evaluations,
+            written,
+        };
         let left_out = left_out_of(self.design);
         Envelope { design: self.design, run_time_s, left_out, error_estimate: None, body }
     }

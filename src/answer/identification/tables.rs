@@ -1,6 +1,7 @@
 //! What an identification says: tables and sentences.
 
-use crate::identify::{Doubt, Estimate, FittedPoint, INSEPARABLE, Identified, Tied, Unknown, Use};
+use super::UnknownRow;
+use crate::identify::{Doubt, FittedPoint, INSEPARABLE, Identified, Tied, Unknown, Use};
 use crate::report::{Cell, Rows, Table, Unit, significant};
 
 fn use_name(purpose: Use) -> &'static str {
@@ -11,7 +12,7 @@ fn use_name(purpose: Use) -> &'static str {
 }
 
 /// The unknowns as found; each in the unit of its name.
-pub(super) fn estimates(found: &Identified) -> Rows<(&Unknown, &f64, &Estimate, String)> {
+pub(super) fn estimates(found: &Identified) -> Rows<UnknownRow<'_>> {
     Rows::of(found.unknowns.iter().zip(&found.before).zip(&found.knowledge.estimates).map(
         |((u, before), e)| {
             let range = u.max - u.min;
@@ -186,8 +187,8 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
     out.extend(k.undetermined().filter_map(|(j, doubt)| doubt_sentence(found, j, doubt)));
     if k.estimates.iter().any(|e| e.by_law.is_some()) {
         out.push(
-            "± at 95 %; scatter: of these data, were the model exact; law: what the contact law's own error beside finite elements, smooth over \
-             torque, moves the value by"
+            "± at 95 %; scatter: of these data, were the model exact; law: what the contact law's own error beside finite \
+             elements, smooth over torque, moves the value by"
                 .to_owned(),
         );
     }

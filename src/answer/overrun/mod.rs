@@ -1,9 +1,11 @@
 //! Overrun on a film: drag, heat, temperatures, growth of the swing, wear, over speeds and temperatures; a slip.
 
+mod body;
 mod page;
 mod tables;
 mod words;
 
+pub use body::{OverrunBody, SlipBody};
 pub use tables::OverrunPart;
 
 use super::left_out::{LeftOut, left_out_of};
@@ -15,7 +17,7 @@ use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, NoMargins, OverrunPoint, lift_off_rad_s, load_state, overrun_at,
 };
 use crate::numeric::setting::{BadSetting, all_in_range};
-use crate::report::{Page, Rows, Screen, Table, Tone, Unit};
+use crate::report::{Page, Screen, Table, Tone};
 use serde_json::{Value, json};
 
 /// Which race runs; the other stands.
@@ -222,6 +224,11 @@ impl OilAt {
 }
 
 impl Said for OverrunAnswer<'_> {
+    type Body<'a>
+        = OverrunBody<'a>
+    where
+        Self: 'a;
+
     fn title(&self) -> &str {
         "Overrun on a film of oil"
     }
@@ -256,23 +263,8 @@ impl Said for OverrunAnswer<'_> {
             .join("\n")
     }
 
-    fn body(&self) -> Value {
-        let slip = Rows::of(self.slip)
-            .json("torque_nm", |s| s.case.torque_nm)
-            .json("speed_m_s", |s| s.case.speed_m_s)
-            .json_in("path_mm", Unit::Millimetre, |s| s.case.path_m)
-            .json("normal_n", |s| s.normal_n)
-            .json("friction", |s| s.friction)
-            .json("flash_k", |s| s.flash_k)
-            .json("peclet", |s| s.peclet)
-            .json_in("sprag_wear_um", Unit::Micrometre, |s| s.sprag_m)
-            .json_in("race_wear_um", Unit::Micrometre, |s| s.race_m);
-        json!({
-            "verdict": self.verdict(), "picked": self.picked(), "oil": self.lubrication.oil.name, "race": self.question.race.name(),
-            "composite_roughness_um": Unit::Micrometre.from_si(self.lubrication.roughness_m()),
-            "lift_off_rpm": self.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)),
-            "lines": self.all().objects(), "slip": slip.object(), "warnings": self.warnings(),
-        })
+    fn body(&self) -> OverrunBody<'_> {
+        OverrunBody::of(self)
     }
 
     fn error_estimate(&self) -> Option<Value> {

@@ -51,7 +51,8 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
         &answer.part(OverrunPart::Heat),
     );
     page.heading("Swing and wear").table(
-        "Growth of a small swing of the sprags on the film, by its friction alone, and dry by the law (12): above 0 the overrun does not stay. Wear of a sprag grows with the power 2/3 of time.",
+        "Growth of a small swing of the sprags on the film, by its friction alone, and dry by the law (12): above 0 the \
+         overrun does not stay. Wear of a sprag grows with the power 2/3 of time.",
         &answer.part(OverrunPart::Swing),
     );
 }

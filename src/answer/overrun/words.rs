@@ -172,8 +172,8 @@ impl OverrunAnswer<'_> {
             false => format!("those of the file, {}, and", named.join(", ")),
         };
         format!(
-            "The {race} race runs, the {other} one stands (--race {other}: the other way); speeds: {of_file}{} usual ones up to 50 m/s of the track{}; \
-             --speeds names others",
+            "The {race} race runs, the {other} one stands (--race {other}: the other way); speeds: {of_file}{} usual ones \
+             up to 50 m/s of the track{}; --speeds names others",
             if named.is_empty() { ", so" } else { "" },
             if self.question.race == RunningRace::Outer { " and lift-off" } else { "" }
         )
@@ -285,7 +285,8 @@ impl OverrunAnswer<'_> {
         });
         if let Some((l, thickness_m)) = thick.max_by(|a, b| a.1.total_cmp(&b.1)) {
             all.push(format!(
-                "Warning: a film of {} at {} is no thin one: the sprags float on oil too thick for them, and its figures are an order at best",
+                "Warning: a film of {} at {} is no thin one: the sprags float on oil too thick for them, and its figures \
+                 are an order at best",
                 Unit::Micrometre.show(thickness_m, 3),
                 place(l)
             ));

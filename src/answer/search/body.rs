@@ -320,7 +320,7 @@ impl SearchRow {
     fn of(m: &Margin) -> Self {
         Self {
             code: m.code(),
-            name: m.name.clone(),
+            name: m.full_name(),
             unit: m.limit.unit,
             allowable: m.shown_allowable(),
             margin: m.margin(),

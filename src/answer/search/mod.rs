@@ -14,13 +14,13 @@ mod tables;
 mod words;
 
 pub use body::{Climb, CodeChange, Found, FrontBody, OptimaBody, PriceBody, SearchBody, SearchRow, Slopes};
-pub use evaluator::{describe_problem, evaluate_line};
+pub use evaluator::{EvaluatedLine, ProblemBody, VariableBody, describe_problem, evaluate_line};
 pub use file::{NEAREST, NoFile, ROBUST, SearchFile};
 pub use made::{CourseBody, MadeBody, MadeRow, NotHeldAt, RobustFound};
 pub use parts::StoryPart;
 pub use realised::{CodeMargin, Flanked, FlanksBody, SearchedOn};
 pub use relief::{AloneBody, FreedBody, LoosenedBody, ReliefBody};
-pub use report::SearchReport;
+pub use report::{SearchReport, SearchReportBody};
 pub use steps::{Bound, Steps};
 pub use story::Story;
 pub use words::Hints;

@@ -1,16 +1,17 @@
 //! A search and its files: text, JSON, page.
 
-use super::{Hints, SearchAnswer, Story};
+use super::{Hints, SearchAnswer, SearchBody, Story};
 use crate::answer::check::{Capacity, margin_words};
 use crate::answer::page::{begun, draw, draw_sheet, drawing, pose_at_rest};
-use crate::answer::{Answer, Envelope, Finding, Provenance};
+use crate::answer::{Answer, ByAlphabet, Envelope, Finding, Provenance};
 use crate::design::Design;
 use crate::file::shown;
 use crate::margin::{Capacities, static_margins};
 use crate::optimise::{Iteration, Status};
 use crate::report::{Curve, Dash, Page, Plot, Screen, Table, Unit};
 use crate::wedge::WedgeCurve;
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::json;
 
 /// A search and where its design went.
 #[derive(Debug, Clone)]
@@ -27,6 +28,20 @@ pub struct SearchReport<'a> {
     pub journal: Option<String>,
     /// What its reader can do about an end.
     pub hints: Hints,
+}
+
+/// Keys of `optimize`.
+#[derive(Debug, Clone, Serialize)]
+pub struct SearchReportBody<'a> {
+    /// Everything found.
+    #[serde(flatten)]
+    pub found: &'a SearchBody,
+    /// Where the new design was written, if it was.
+    pub written_to: Option<&'a str>,
+    /// Further designs written beside it.
+    pub written_beside: &'a [String],
+    /// The journal, where it was kept.
+    pub journal: Option<&'a str>,
 }
 
 impl SearchReport<'_> {
@@ -84,7 +99,7 @@ impl SearchReport<'_> {
 
 impl Answer for SearchReport<'_> {
     type Body<'a>
-        = Value
+        = ByAlphabet<SearchReportBody<'a>>
     where
         Self: 'a;
 
@@ -143,20 +158,19 @@ impl Answer for SearchReport<'_> {
     }
 
     /// That of the library, and the files.
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
-        // Numbers that are none become null; the object holds nothing else that has no JSON form.
-        let mut body = serde_json::to_value(&self.answer.body).unwrap_or_default();
-        if let Some(map) = body.as_object_mut() {
-            map.insert("written_to".into(), json!(self.written));
-            map.insert("written_beside".into(), json!(self.beside));
-            map.insert("journal".into(), json!(self.journal));
-        }
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, ByAlphabet<SearchReportBody<'_>>> {
+        let found = &self.answer.body;
         Envelope {
             design: self.design,
             run_time_s,
             left_out: self.answer.left_out.clone(),
-            error_estimate: Some(json!(self.answer.body.objective_error)),
-            body,
+            error_estimate: Some(json!(found.objective_error)),
+            body: ByAlphabet(SearchReportBody {
+                found,
+                written_to: self.written.as_deref(),
+                written_beside: &self.beside,
+                journal: self.journal.as_deref(),
+            }),
         }
     }
 

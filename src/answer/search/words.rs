@@ -3,7 +3,7 @@
 use super::Story;
 use crate::answer::check::margin_text;
 use crate::design::Objective;
-use crate::margin::{LOST, Margin};
+use crate::margin::{Left, Margin};
 use crate::optimise::{Cause, NO_INFLUENCE, Optima, Price, PriceKind, Status, Variable};
 use crate::report::{Unit, error_beside, significant};
 
@@ -43,10 +43,10 @@ impl Default for Hints {
     }
 }
 
-/// A value of an objective; `None` where a scene has no such margin, which the search counts as [`LOST`].
+/// A value of an objective; `None` where a scene has no such margin, which the search counts as [`Left::Lost`].
 pub(super) fn known(aim: Objective, value: f64) -> Option<f64> {
     let of_scenes = matches!(aim, Objective::SlipMargin | Objective::ContactMargin);
-    (!of_scenes || value > LOST).then_some(value)
+    (!of_scenes || value > Left::Lost.number()).then_some(value)
 }
 
 /// A value of an objective with its unit.

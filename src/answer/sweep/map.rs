@@ -54,18 +54,18 @@ impl MapVariable {
 }
 
 /// A point that is remembered.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct MapPoint {
-    /// Its number.
-    pub index: u64,
-    /// Values of the variables.
-    pub x: Vec<f64>,
-    /// What is mapped.
-    pub value: f64,
-    /// The least objective, where there is one.
-    pub least: Option<f64>,
     /// Whether every limit is held.
     pub held: bool,
+    /// Its number.
+    pub index: u64,
+    /// The least objective, where there is one.
+    pub least: Option<f64>,
+    /// What is mapped.
+    pub value: f64,
+    /// Values of the variables.
+    pub x: Vec<f64>,
 }
 
 /// What lies in one tile.

@@ -1,17 +1,57 @@
 //! The map of a sweep as text, JSON and page.
 
 use super::head::{Holds, SweepHead};
-use super::map::{MapPair, MapVariable, SweepMap};
+use super::map::{MapPair, MapPoint, MapVariable, SweepMap};
 use crate::answer::{Provenance, TOOL, VERSION};
 use crate::file::variable_unit;
 use crate::report::heat::{KINDS, SHADES};
 use crate::report::{
     HeatMap, Page, PageHead, Parallel, Rows, Screen, Shade, Table, Tone, Unit, plain, significant,
 };
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// Axes of the parallel coordinates: more would be too narrow for their names.
 const MOST_AXES: usize = 9;
+
+/// Least and greatest value of a variable, in the unit of its name.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct MapRange {
+    /// The least.
+    pub from: f64,
+    /// The greatest.
+    pub to: f64,
+}
+
+/// Keys of `map`.
+#[derive(Debug, Clone, Serialize)]
+pub struct MapBody<'a> {
+    /// The best point.
+    pub best: Option<&'a MapPoint>,
+    /// The column that is mapped.
+    pub by: &'a str,
+    /// Which limit decides at how many points.
+    pub deciding: Rows<&'a (String, u64)>,
+    /// Name of the design; null: the table does not say.
+    pub design: Option<&'a str>,
+    /// SHA-256 of its file.
+    pub design_hash: Option<&'a str>,
+    /// Points that hold every limit.
+    pub held: u64,
+    /// Points.
+    pub points: u64,
+    /// Which points were taken.
+    pub sampling: Option<&'a str>,
+    /// The program.
+    pub tool: &'static str,
+    /// Each variable: its range, that of the points that are held, its value at the best point.
+    pub variables: Rows<(usize, &'a MapVariable)>,
+    /// The answer in a sentence.
+    pub verdict: String,
+    /// Its version.
+    pub version: &'static str,
+    /// Points without a clutch.
+    pub without_clutch: u64,
+}
 
 impl SweepMap {
     /// In a sentence.
@@ -54,7 +94,7 @@ impl SweepMap {
 
     fn variable_rows(&self) -> Rows<(usize, &MapVariable)> {
         let digits = 5;
-        let range = |[low, high]: [f64; 2]| json!({ "from": low, "to": high });
+        let range = |[from, to]: [f64; 2]| MapRange { from, to };
         Rows::of(self.variables.iter().enumerate())
             .text("name", "Variable", |(_, v)| v.name.as_str())
             .number("from", "From", Unit::One, digits, |(_, v)| v.range[0])
@@ -122,17 +162,23 @@ impl SweepMap {
     }
 
     /// The answer as one JSON object.
-    pub fn object(&self) -> Value {
-        let best = self.best.as_ref().map(
-            |b| json!({ "index": b.index, "x": b.x, "value": b.value, "least": b.least, "held": b.held }),
-        );
-        json!({
-            "tool": TOOL, "version": VERSION,
-            "design": self.head.as_ref().map(|h| &h.design), "design_hash": self.head.as_ref().map(|h| &h.design_hash),
-            "sampling": self.head.as_ref().map(|h| &h.points), "by": self.by,
-            "verdict": self.verdict(), "points": self.points, "without_clutch": self.void, "held": self.held,
-            "variables": self.variable_rows().objects(), "deciding": self.deciding_rows().objects(), "best": best,
-        })
+    pub fn object(&self) -> MapBody<'_> {
+        let head = self.head.as_ref();
+        MapBody {
+            tool: TOOL,
+            version: VERSION,
+            design: head.map(|h| h.design.as_str()),
+            design_hash: head.map(|h| h.design_hash.as_str()),
+            sampling: head.map(|h| h.points.as_str()),
+            by: &self.by,
+            verdict: self.verdict(),
+            points: self.points,
+            without_clutch: self.void,
+            held: self.held,
+            variables: self.variable_rows(),
+            deciding: self.deciding_rows(),
+            best: self.best.as_ref(),
+        }
     }
 
     /// The answer as a page.
@@ -181,7 +227,8 @@ impl SweepMap {
             page.heading("What decides")
                 .table("The limit with the least margin, at all points.", &self.deciding_table());
         }
-        page.results("results", &self.object());
+        // Numbers that are none become null; the object holds nothing else that has no JSON form.
+        page.results("results", &serde_json::to_value(self.object()).unwrap_or_default());
         page
     }
 

@@ -13,6 +13,7 @@ mod vectors;
 pub use head::{Holds, SweepHead};
 pub use lines::{ColumnsUnknown, SweepLines};
 pub use map::{Cells, MapPair, MapPoint, MapVariable, SweepMap};
+pub use map_page::{MapBody, MapRange};
 pub use table::NoTable;
 pub use vectors::Vectors;
 

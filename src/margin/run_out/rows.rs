@@ -4,9 +4,9 @@ use super::{RunOut, SpragLoad, Survey};
 use crate::design::{Design, Limits};
 use crate::margin::Capacities;
 use crate::margin::limits::{Limit, Of};
-use crate::margin::load::{beyond, row_name};
+use crate::margin::load::{beyond, not_carried};
 use crate::margin::table::{END_OF_PROFILE, LIMITS};
-use crate::margin::{Demand, LOST, Margin};
+use crate::margin::{Beyond, Demand, Margin};
 use crate::numeric::root;
 
 /// Torques looked at between none and the end, for what is reached on the way: a choice.
@@ -61,7 +61,8 @@ pub fn run_out_margins(
         let capacity = (capacities == Capacities::Wanted).then(|| reached(ring, &surveys, &over)).flatten();
         rows.push(Margin {
             off_centre: true,
-            name: row_name(&name, torque, end),
+            name,
+            aside: not_carried(torque, end),
             torque_capacity_nm: capacity,
             ..Margin::new(limit, demand, allowed)
         });
@@ -73,7 +74,7 @@ pub fn run_out_margins(
 fn nothing_found(torque: f64, end: f64) -> Demand {
     match end >= torque {
         true => Demand::MoreThan(0.0),
-        false => Demand::Overloaded { at_end: Some(0.0), shortfall: Some(LOST) },
+        false => Demand::Overloaded { at_end: Some(0.0), beyond: Beyond::Lost },
     }
 }
 

@@ -4,7 +4,9 @@ use super::{ClutchProblem, StateAt, Way};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::{Design, Link};
 use crate::fidelity;
-use crate::margin::{LoadState, Margin, SceneDemand, ends_decide, load_state_at, scene_margins, scene_rows};
+use crate::margin::{
+    LoadState, Margin, SceneDemand, ends_decide, load_state_at, scene_margins, scene_rows, unknown_scene_rows,
+};
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::scenario::{AtRest, Prepared, RollingTrack, demand_retraced};
 use rayon::prelude::*;
@@ -76,13 +78,15 @@ impl ClutchProblem {
         as_it_was: bool,
     ) -> Vec<Margin> {
         let moves = !matches!(scenario.kind, ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. });
-        let rows = |demand: &SceneDemand| scene_rows(scenario, demand, &self.limits, true);
+        let unknown = || unknown_scene_rows(scenario, &self.limits);
         let retraced = |prepared: &Prepared| match demand_retraced(prepared, track.map(|(track, _)| track)) {
-            Some(found) => rows(&SceneDemand::of(scenario, prepared, found)),
-            None => rows(&SceneDemand::unknown(scenario)),
+            Some(found) => {
+                scene_rows(scenario, &SceneDemand::of(scenario, prepared, found), &self.limits, true)
+            }
+            None => unknown(),
         };
         match track {
-            None if moves => rows(&SceneDemand::unknown(scenario)),
+            None if moves => unknown(),
             Some((_, prepared)) if as_it_was => retraced(prepared),
             _ => match fidelity::plan_at(scenario, Some(known), self.effort()) {
                 Ok((_, prepared)) => retraced(&prepared),

@@ -1,6 +1,10 @@
 //! What an indexing drive feeds with each stroke, over frequency, and where it ends.
 
-use super::inertia::{InertiaFrom, inertia_from};
+mod body;
+mod words;
+
+pub use body::FeedBody;
+
 use super::left_out::{LeftOut, left_out_of};
 use super::reengagement::peak_torque_borne;
 use super::{Finding, Said};
@@ -11,8 +15,7 @@ use crate::feed::{Fed, Strokes, fed};
 use crate::follow::Follow;
 use crate::margin::load_state;
 use crate::report::plot::Curve;
-use crate::report::{Cell, Page, Plot, Rows, Table, Unit, plain, significant};
-use serde_json::{Value, json};
+use crate::report::{Page, Plot, Table, Unit, plain};
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -105,11 +108,6 @@ impl fmt::Display for NoFeed {
 }
 
 impl std::error::Error for NoFeed {}
-
-/// A figure of strokes that came to their end.
-fn known(fed: &Fed, rad: f64) -> Option<f64> {
-    fed.ended.is_none().then_some(rad)
-}
 
 /// A number as it may have been typed.
 fn typed(value: f64) -> String {
@@ -238,88 +236,23 @@ impl FeedAnswer<'_> {
         }
     }
 
+    /// The race that drives.
+    fn driving_race(&self) -> &'static str {
+        if self.case.inner_drives { "inner" } else { "outer" }
+    }
+
     /// The race that is fed.
     fn fed_race(&self) -> &'static str {
         if self.case.inner_drives { "outer" } else { "inner" }
     }
-
-    /// Which inertia the verdict rests on, where nobody has said it.
-    fn rests_on(&self) -> String {
-        let from = match (self.inertia_given, inertia_from(self.design, self.fed_race())) {
-            (true, _) | (false, InertiaFrom::File) => return String::new(),
-            (false, InertiaFrom::Guess) => "a guess of the file",
-            (false, InertiaFrom::Ring) => "the ring alone",
-        };
-        format!(
-            "; this rests on {} kg m² that turn with the {} race, {from} (--inertia says what does)",
-            significant(self.case.inertia_kg_m2, 4),
-            self.fed_race()
-        )
-    }
-
-    /// Which number to change, and towards where, after strokes that do not feed.
-    fn next_step(&self) -> Option<String> {
-        let case = &self.case;
-        let fed = self.list.iter().find(|fed| !self.feeds(fed))?;
-        let hz = Unit::Hertz.show(fed.frequency_hz, 3);
-        let ratio = (fed.frequency_hz / case.runs_on_from_hz()).powi(2);
-        let fewer = match self.limit_hz {
-            Some(limit) => format!("up to {} (--frequency)", Unit::Hertz.show(limit, 3)),
-            None => format!("fewer than {hz} (--frequency)"),
-        };
-        Some(match self.word(fed) {
-            "NOT HELD" if ratio > 1.0 => format!(
-                "Next: that the fed race does not run on at {hz}, a brake of {} or more (--brake, now {}), or {} kg m² or less (--inertia, \
-                 now {}); or strokes {fewer}",
-                Unit::NewtonMetre.show(case.brake_nm * ratio, 3),
-                significant(case.brake_nm, 3),
-                significant(case.inertia_kg_m2 / ratio, 3),
-                significant(case.inertia_kg_m2, 3)
-            ),
-            "NOT HELD" => format!(
-                "Next: strokes {fewer}, or a difference of {} allowed (--allowed)",
-                Unit::Degree.show(self.off_rad(fed).abs(), 2)
-            ),
-            "THROWN OUT" => format!(
-                "Next: strokes {fewer}, or a spring that presses more: spring.drag_torque_nm or spring.stiffness_nm_per_rad up"
-            ),
-            "OVERLOADED" => {
-                let bears = self.bears.as_ref().map_or(String::new(), |(nm, code)| {
-                    format!(" than the {} that {code} allows", Unit::NewtonMetre.show(*nm, 4))
-                });
-                format!(
-                    "Next: strokes {fewer}, less to be moved (--inertia, now {} kg m²; --brake, now {}), or a clutch for more{bears} (`size \
-                     --peak`)",
-                    significant(case.inertia_kg_m2, 3),
-                    Unit::NewtonMetre.show(case.brake_nm, 4)
-                )
-            }
-            _ => return None,
-        })
-    }
-
-    /// Each frequency.
-    pub fn frequencies(&self) -> Rows<&Fed> {
-        Rows::of(&self.list)
-            .number("frequency_hz", "Strokes", Unit::Hertz, 4, |f| f.frequency_hz)
-            .number("feed_deg", "Feed", Unit::Degree, 6, |f| known(f, f.feed_rad))
-            .number("error_deg", "Feed − stroke", Unit::Degree, 4, |f| known(f, f.error_rad))
-            .number("off_deg", "Against slow ones", Unit::Degree, 3, |f| known(f, self.off_rad(f)))
-            .number("runs_on_deg", "Runs on", Unit::Degree, 3, |f| known(f, f.runs_on_rad))
-            .number("unlike_deg", "Unlike", Unit::Degree, 2, |f| known(f, f.unlike_rad))
-            .number("peak_torque_nm", "Torque", Unit::NewtonMetre, 4, |f| f.peak.map(|p| p.torque_nm))
-            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |f| {
-                f.peak.map(|p| p.hertz_inner_pa)
-            })
-            .number("open_ms", "Open", Unit::Millisecond, 3, |f| f.open_s)
-            .text("verdict", "Verdict", |f| Cell::Verdict(self.feeds(f), self.word(f).to_owned()))
-            .json("strokes", |f| f.strokes)
-            .json("held", |f| self.feeds(f))
-            .json("ended", |f| f.ended.map(Stop::name))
-    }
 }
 
 impl Said for FeedAnswer<'_> {
+    type Body<'a>
+        = FeedBody<'a>
+    where
+        Self: 'a;
+
     fn title(&self) -> &str {
         "Feed of an indexing drive"
     }
@@ -339,125 +272,19 @@ impl Said for FeedAnswer<'_> {
     }
 
     fn verdict(&self) -> String {
-        let hertz = |hz: f64| Unit::Hertz.show(hz, 3);
-        let degrees = |rad: f64| Unit::Degree.show(rad, 3);
-        if self.outcome() == Finding::Stopped {
-            return format!("stopped after {} of {} frequencies", self.list.len(), self.asked);
-        }
-        let rests = self.rests_on();
-        let (first, last) = (&self.list[0], &self.list[self.list.len() - 1]);
-        if self.is_held() {
-            return format!(
-                "HELD up to {}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake{rests}",
-                hertz(last.frequency_hz),
-                degrees(-last.error_rad),
-                degrees(self.case.stroke_rad),
-                degrees(self.windup_rad)
-            );
-        }
-        let why =
-            self.list.iter().find(|fed| !self.feeds(fed)).map_or(String::new(), |fed| match self.word(fed) {
-                "NOT HELD" => format!(
-                    "at {} a stroke feeds {} {} than slow ones, {} is allowed",
-                    hertz(fed.frequency_hz),
-                    degrees(self.off_rad(fed).abs()),
-                    if self.off_rad(fed) > 0.0 { "more" } else { "less" },
-                    degrees(self.allowed_rad)
-                ),
-                "THROWN OUT" => format!(
-                    "at {} the sprags are thrown out of reach of their spring",
-                    hertz(fed.frequency_hz)
-                ),
-                "OVERLOADED" => {
-                    format!("at {} the clutch is wound up beyond what it bears", hertz(fed.frequency_hz))
-                }
-                _ => format!("at {} the strokes were not followed to their end", hertz(fed.frequency_hz)),
-            });
-        let lost = self.list.iter().position(|fed| !self.feeds(fed)).unwrap_or(0);
-        let held: Vec<String> = self.list[lost..]
-            .iter()
-            .filter(|fed| self.feeds(fed))
-            .map(|fed| hertz(fed.frequency_hz))
-            .collect();
-        let again = if held.is_empty() {
-            String::new()
-        } else {
-            format!(", and is held again at {}", held.join(", "))
-        };
-        match self.limit_hz {
-            Some(limit) => {
-                format!(
-                    "NOT HELD: {why}; on the way up from {} it first fails beyond {}{again}{rests}",
-                    hertz(first.frequency_hz),
-                    hertz(limit)
-                )
-            }
-            None => format!("NOT HELD: {why}, already at the slowest that was asked for{again}{rests}"),
-        }
+        self.verdict_words()
     }
 
     fn remarks(&self) -> Vec<String> {
-        let case = &self.case;
-        let race = self.fed_race();
-        let driving = if case.inner_drives { "inner" } else { "outer" };
-        let whose = match (self.inertia_given, inertia_from(self.design, race)) {
-            (true, _) => " with all that turns with it".to_owned(),
-            (false, InertiaFrom::File) => {
-                format!(" by races.{race}_inertia_kg_m2 of the file (--inertia says another)")
-            }
-            (false, InertiaFrom::Guess) => {
-                format!(", a guess of the file (races.{race}_inertia_kg_m2; --inertia says another)")
-            }
-            (false, InertiaFrom::Ring) => {
-                format!(
-                    ", the ring alone (the file has no races.{race}_inertia_kg_m2; --inertia says another)"
-                )
-            }
-        };
-        let next = self.next_step();
-        let most_nm = self.list.iter().filter_map(|f| f.peak.map(|p| p.torque_nm)).fold(0.0, f64::max);
-        let named = self.design.limits.peak_torque_nm.filter(|peak_nm| most_nm > *peak_nm);
-        let beyond = named.map(|peak_nm| {
-            format!(
-                "Up to {} here, more than the {} of limits.peak_torque_nm: held is what the clutch bears, not what its file asks for",
-                Unit::NewtonMetre.show(most_nm, 4),
-                Unit::NewtonMetre.show(peak_nm, 4)
-            )
-        });
-        let about = vec![
-            format!(
-                "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m²{whose}, stands under a brake of {}",
-                Unit::Degree.show(case.stroke_rad, 4),
-                significant(case.inertia_kg_m2, 4),
-                Unit::NewtonMetre.show(case.brake_nm, 4),
-            ),
-            format!(
-                "Slow strokes feed the stroke less the windup at that torque, {}; where the inertia asks for more than the brake, the fed race \
-                 runs on, from {} on",
-                Unit::Degree.show(self.windup_rad, 4),
-                Unit::Hertz.show(self.case.runs_on_from_hz(), 3)
-            ),
-            "Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (negative: less); runs on: turn of the fed race after the driving one has turned back; unlike: last stroke against the one before; torque: largest, by \
-             the normal force; open: time of a stroke without contact at the inner race"
-                .to_owned(),
-        ];
-        next.into_iter().chain(beyond).chain(about).collect()
+        [self.next_step(), self.beyond_the_file()].into_iter().flatten().chain(self.about()).collect()
     }
 
     fn table(&self) -> Table {
         self.frequencies().table()
     }
 
-    fn body(&self) -> Value {
-        let degrees = |rad: f64| Unit::Degree.from_si(rad);
-        let case = &self.case;
-        json!({
-            "held": self.is_held(), "verdict": self.verdict(), "stroke_deg": degrees(case.stroke_rad), "brake_nm": case.brake_nm,
-            "inertia_kg_m2": case.inertia_kg_m2, "driver": if case.inner_drives { "inner" } else { "outer" },
-            "allowed_deg": degrees(self.allowed_rad), "windup_deg": degrees(self.windup_rad), "limit_hz": self.limit_hz,
-            "bears_nm": self.bears.as_ref().map(|b| b.0), "bears_by": self.bears.as_ref().map(|b| b.1.as_str()),
-            "frequencies": self.frequencies().objects(),
-        })
+    fn body(&self) -> FeedBody<'_> {
+        FeedBody::of(self)
     }
 
     fn left_out(&self) -> Vec<LeftOut> {
@@ -482,6 +309,10 @@ impl Said for FeedAnswer<'_> {
             plot.curves.push(Curve::new("slow strokes: windup", points(&|_| -self.windup_rad)));
             page.figure(&plot.to_figure(), "What a stroke feeds more or less than the driving race turns.");
         }
-        page.table("Each frequency. Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (both negative: less).", &self.table());
+        page.table(
+            "Each frequency. Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow \
+             strokes feed (both negative: less).",
+            &self.table(),
+        );
     }
 }

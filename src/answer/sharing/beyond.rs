@@ -1,9 +1,8 @@
 //! What follows the end of a sprag among others: `sharing` beyond it.
 
-use super::sharing::{SharingAnswer, largest};
+use super::{SharingAnswer, largest};
 use crate::report::{Plot, Rows, Unit};
 use crate::sharing::{Bears, Loss, PopPoint};
-use serde_json::{Value, json};
 
 impl SharingAnswer<'_> {
     /// Beyond the end: the torque as the races are turned on.
@@ -67,15 +66,5 @@ impl SharingAnswer<'_> {
             ),
         };
         said
-    }
-
-    /// The same for JSON; null where nothing ends it.
-    pub(super) fn beyond(&self) -> Value {
-        let Some(pops) = &self.pops else { return Value::Null };
-        json!({
-            "peak_torque_nm": pops.peak.torque_nm, "peak_windup_deg": Unit::Degree.from_si(pops.peak.windup_rad),
-            "peak_over": pops.peak.over, "left_torque_nm": pops.left_nm,
-            "popped": self.popped().objects(), "course": self.over().objects(),
-        })
     }
 }

@@ -1,6 +1,10 @@
 //! What a slip under load and the blow after it do to a clutch: each path of slip, verdict, curve.
 
+mod body;
+mod page;
 mod words;
+
+pub use body::{BorneBody, ReengagementBody, ThrownBody};
 
 use super::check::{Capacity, overrun::outer_turns};
 use super::left_out::{LeftOut, left_out_of};
@@ -11,9 +15,7 @@ use crate::element::NoElement;
 use crate::follow::Follow;
 use crate::margin::{Capacities, LIFT_OFF_TO_RAD_S, LoadState, lift_off_rad_s, load_margins, load_state};
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
-use crate::report::plot::{Curve, Dash};
-use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
-use serde_json::{Value, json};
+use crate::report::{Page, Screen, Table};
 use std::fmt;
 
 /// What a user may choose; what is `None` is taken from the design.
@@ -298,81 +300,14 @@ impl ReengagementAnswer<'_> {
     fn thrown(&self) -> Option<SlipEnd> {
         self.found.ended.filter(|end| end.stop == Stop::FellAway)
     }
-
-    /// Why the clutch does not grip, where it does not.
-    fn lost(&self, end: &SlipEnd) -> String {
-        let when = format!("{} after the slip begins", Unit::Millisecond.show(end.at_s, 3));
-        match end.stop {
-            Stop::FellAway => {
-                let mut said = format!(
-                    "NOT HELD: {when} the sprags are thrown farther than their spring reaches, and nothing brings them back: from then on the \
-                     torque drives the races apart unhindered"
-                );
-                let last = self.found.list.last().filter(|b| b.peak.is_none());
-                if let Some(b) = last {
-                    said += &format!(
-                        ", after {} at {} against one another",
-                        Unit::Millimetre.show(b.path_m, 3),
-                        Unit::Rpm.show(b.speed_rad_s, 3)
-                    );
-                    said += &match b.by_energy_nm {
-                        Some(torque_nm) => format!(
-                            "; if a cage made them grip there, their energy would come to {}",
-                            Unit::NewtonMetre.show(torque_nm, 4)
-                        ),
-                        None => "; if a cage made them grip there, their energy would go beyond the end of the curve".to_owned(),
-                    };
-                }
-                said
-            }
-            Stop::CurveEnd => format!("NOT HELD: {when} the blow goes beyond the end of the curve"),
-            Stop::Interrupted => format!("stopped {when}"),
-            other => format!(
-                "NOT HELD: {when} the clutch has not gripped as long as it was followed ({})",
-                other.name()
-            ),
-        }
-    }
-
-    /// Each path of slip with its blow.
-    pub fn blows(&self) -> Rows<&Blow> {
-        let word = |b: &Blow| match (self.bears_it(b), b.ended) {
-            (true, _) => "held",
-            (false, None) => "NOT HELD",
-            (false, Some(Stop::FellAway)) => "THROWN OUT",
-            (false, Some(Stop::CurveEnd)) => "OVERLOADED",
-            (false, Some(_)) => "NO GRIP",
-        };
-        Rows::of(&self.found.list)
-            .number("path_mm", "Slip", Unit::Millimetre, 3, |b| b.path_m)
-            .number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4, |b| b.peak.map(|p| p.torque_nm))
-            .text("verdict", "Verdict", |b| Cell::Verdict(self.bears_it(b), word(b).to_owned()))
-            .number("times", "Times", Unit::One, 3, |b| b.peak.map(|p| p.torque_nm / self.case.torque_nm))
-            .number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4, |b| b.by_energy_nm)
-            .number("energy_j", "Energy", Unit::Joule, 3, |b| self.energy(b).map(|e| e.0))
-            .number("of_borne", "Of borne", Unit::One, 3, |b| self.energy(b).and_then(|e| e.1))
-            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |b| {
-                b.peak.map(|p| p.hertz_inner_pa)
-            })
-            .number("speed_rpm", "Speed gained", Unit::Rpm, 3, |b| self.told(b))
-            .number("slip_ms", "Lasts", Unit::Millisecond, 3, |b| b.slip_s)
-            .number("peak_ms", "Blow at", Unit::Millisecond, 3, |b| b.peak_s.filter(|_| b.peak.is_some()))
-            .number("path_in_all_mm", "In all", Unit::Millimetre, 3, |b| b.path_in_all_m)
-            .json("held", |b| self.bears_it(b))
-            .json("ended", |b| b.ended.map(Stop::name))
-    }
-
-    /// The friction of the slip, and its share of what the torque needs.
-    fn short(&self) -> String {
-        let (friction, needs) = (self.case.friction, self.found.needs);
-        let share = needs.is_finite().then(|| {
-            format!(" ({} of the {} that it needs)", significant(friction / needs, 2), significant(needs, 3))
-        });
-        significant(friction, 3) + &share.unwrap_or_default()
-    }
 }
 
 impl Said for ReengagementAnswer<'_> {
+    type Body<'a>
+        = ReengagementBody<'a>
+    where
+        Self: 'a;
+
     fn title(&self) -> &str {
         "Slip and re-engagement"
     }
@@ -392,100 +327,11 @@ impl Said for ReengagementAnswer<'_> {
     }
 
     fn verdict(&self) -> String {
-        if let Some(needed) = self.found.holds {
-            return format!(
-                "HELD: it does not slip: {} needs a friction of {}, and {} is there",
-                Unit::NewtonMetre.show(self.case.torque_nm, 4),
-                significant(needed, 3),
-                significant(self.case.friction, 3)
-            );
-        }
-        if let Some(end) = self.found.ended {
-            return self.lost(&end);
-        }
-        let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
-            format!(", of {} that {code} allows", Unit::NewtonMetre.show(*torque_nm, 4))
-        });
-        let path = |b: &Blow| Unit::Millimetre.show(b.path_m, 3);
-        match self.found.list.iter().find(|b| !self.bears_it(b)) {
-            Some(b) => match &b.peak {
-                Some(p) => format!(
-                    "NOT HELD: after {} of slip the blow comes to {}{limit}",
-                    path(b),
-                    Unit::NewtonMetre.show(p.torque_nm, 4)
-                ),
-                None => {
-                    format!("NOT HELD: after {} of slip the blow goes beyond the end of the curve", path(b))
-                }
-            },
-            None => {
-                let most = self.found.list.iter().filter_map(|b| Some((b, b.peak?.torque_nm)));
-                most.max_by(|a, b| a.1.total_cmp(&b.1)).map_or("HELD".to_owned(), |(b, torque_nm)| {
-                    format!("HELD: after {} of slip {}{limit}", path(b), Unit::NewtonMetre.show(torque_nm, 4))
-                })
-            }
-        }
+        self.verdict_words()
     }
 
     fn remarks(&self) -> Vec<String> {
-        let case = &self.case;
-        if self.found.list.is_empty() {
-            return Vec::new();
-        }
-        let [inner, outer] = case.inertia_kg_m2.map(|i| significant(i, 4));
-        let outer = match case.outer_held {
-            true => "rigidly, the outer race is held".to_owned(),
-            false => format!("{outer} kg m² with the outer one, both rigidly"),
-        };
-        let mut all: Vec<String> = self.bare_ring().into_iter().collect();
-        all.extend([
-            format!(
-                "{} carried when the friction falls to {}; {inner} kg m² turn with the inner race, {outer}{}",
-                Unit::NewtonMetre.show(case.torque_nm, 4),
-                self.short(),
-                match self.speed_of {
-                    Some(scene) => format!(", at {} as in {scene}", Unit::Rpm.show(case.speed_rad_s, 4)),
-                    None => String::new(),
-                }
-            ),
-            "Slip, lasts: path at the inner track and time until the design's friction is back; times: blow over the torque carried; by energy: \
-             nothing lost; energy: of the races against one another, of borne: that over what the limits let the windup take up; speed gained: largest speed of the races against one another; in all: path until these stand still against one another"
-                .to_owned(),
-            "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
-        ]);
-        if let Some([most_j, end_j]) = self.takes_up_j {
-            let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
-                format!(" up to {} ({code})", Unit::NewtonMetre.show(*torque_nm, 4))
-            });
-            all.push(format!(
-                "The windup takes up {} from the torque carried{limit}, {} to the end of its curve",
-                Unit::Joule.show(most_j, 3),
-                Unit::Joule.show(end_j, 3)
-            ));
-        }
-        all.extend(self.borne.map(|b| self.borne_words(&b)));
-        all.extend(self.next_step());
-        if !outer_turns(self.design) {
-            all.push(format!(
-                "The design names no speed of the outer race: here it is {}; --outer-held and --outer-free say which",
-                if case.outer_held { "held, as in a housing" } else { "free to turn" }
-            ));
-        }
-        if let Some(end) = self.thrown() {
-            all.push(format!(
-                "From {} of slip on the slip itself throws the sprags out of reach: rows beyond are of races with nothing between them; by energy: what \
-                 the speed would come to if the sprags gripped there. Rows above that end so are thrown out once the friction is back",
-                Unit::Millimetre.show(end.path_m, 3)
-            ));
-            if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
-                all.push(format!(
-                    "The outer race runs at {}; in steady overrun its sprags lift off from {} on, slower they come back sooner",
-                    Unit::Rpm.show(end.outer_rad_s.abs(), 4),
-                    Unit::Rpm.show(speed, 4)
-                ));
-            }
-        }
-        all
+        if self.found.list.is_empty() { Vec::new() } else { self.remark_words() }
     }
 
     fn table(&self) -> Table {
@@ -499,27 +345,8 @@ impl Said for ReengagementAnswer<'_> {
         [BLOW, WAY].map(|keys| self.table().only(keys).to_text(screen)).join("\n")
     }
 
-    fn body(&self) -> Value {
-        let case = &self.case;
-        let rpm = |rad_s: f64| Unit::Rpm.from_si(rad_s);
-        let mm = |m: f64| Unit::Millimetre.from_si(m);
-        json!({
-            "held": self.is_held(), "verdict": self.verdict(), "torque_nm": case.torque_nm, "friction": case.friction,
-            "speed_rpm": rpm(case.speed_rad_s), "inertia_inner_kg_m2": case.inertia_kg_m2[0],
-            "inertia_outer_kg_m2": (!case.outer_held).then_some(case.inertia_kg_m2[1]), "outer_held": case.outer_held,
-            "bears_nm": self.bears.as_ref().map(|b| b.0),
-            "bears_by": self.bears.as_ref().map(|b| b.1.as_str()), "blows": self.blows().objects(),
-            "bears_j": self.takes_up_j.map(|j| j[0]), "end_of_curve_j": self.takes_up_j.map(|j| j[1]),
-            "torque_needs_friction": Some(self.found.needs).filter(|mu| mu.is_finite()),
-            "borne": self.borne.map(|b| json!({ "path_mm": b.path_m.map(mm), "friction": b.friction })),
-            "speed_of": self.speed_of,
-            "needs_friction": self.found.holds, "slip_ended": self.found.ended.map(|end| end.stop.name()),
-            "lift_off_rpm": self.lift_off_rad_s.map(rpm),
-            "thrown": self.thrown().map(|end| json!({
-                "at_ms": Unit::Millisecond.from_si(end.at_s), "path_mm": mm(end.path_m), "speed_rpm": rpm(end.speed_rad_s),
-                "outer_rpm": rpm(end.outer_rad_s),
-            })),
-        })
+    fn body(&self) -> ReengagementBody<'_> {
+        ReengagementBody::of(self)
     }
 
     fn left_out(&self) -> Vec<LeftOut> {
@@ -549,47 +376,6 @@ impl Said for ReengagementAnswer<'_> {
     }
 
     fn draw(&self, page: &mut Page) {
-        let points = |of: &dyn Fn(&Blow) -> Option<f64>| -> Vec<[f64; 2]> {
-            self.found.list.iter().filter_map(|b| Some([1e3 * b.path_m, of(b)?])).collect()
-        };
-        let mut plot = Plot::new("Slip until the friction is back, mm", "Torque, Nm");
-        plot.log_x = true;
-        let blow = points(&|b| Some(b.peak?.torque_nm));
-        let energy = points(&|b| Some(self.energy(b)?.0));
-        // Where most blows have no torque, what they bring says by how much too much it is.
-        let few = blow.len() < 3 && blow.len() < energy.len();
-        let few = few.then(|| self.energy_plot(energy)).flatten();
-        let blow_is_empty = blow.is_empty();
-        if !blow_is_empty {
-            plot.curves.push(Curve::new("blow", blow));
-        }
-        let by_energy = points(&|b| b.by_energy_nm);
-        let is_empty = blow_is_empty && by_energy.is_empty();
-        if !by_energy.is_empty() {
-            // Often beside the blow itself.
-            plot.curves
-                .push(Curve { dash: Dash::Dashed, ..Curve::new("by energy, nothing lost", by_energy) });
-        }
-        if let Some((most_nm, code)) = &self.bears {
-            plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));
-        }
-        if !self.found.list.is_empty() {
-            if let Some(energy) = few {
-                page.figure(
-                    &energy.to_figure(),
-                    "Energy of the races against one another after each path of slip, and what the windup takes up: to its limits and to the end of \
-                     the curve. Beyond that the blow has no torque to draw.",
-                );
-            } else {
-                match is_empty {
-                true => page.paragraph(
-                    "No curve of the blow over slip: every one of them goes beyond what the clutch carries.",
-                ),
-                false => page.figure(&plot.to_figure(), "Largest torque when the clutch grips again."),
-                };
-            }
-            page.table("The blow after each path of slip.", &self.table().only(BLOW));
-            page.table("The way to it.", &self.table().only(WAY));
-        }
+        page::draw(self, page);
     }
 }

@@ -1,0 +1,117 @@
+//! What sprags one by one come to, in words: the verdict, and what is left out of them.
+
+use super::{SharingAnswer, largest};
+use crate::answer::Said;
+use crate::answer::left_out::LeftOut;
+use crate::clutch::Rim;
+use crate::report::{Unit, significant};
+use crate::sharing::Shared;
+
+impl SharingAnswer<'_> {
+    /// The answer in a sentence.
+    pub(super) fn verdict_words(&self) -> String {
+        let torque = Unit::NewtonMetre.show(self.torque_nm, 4);
+        let turned = match &self.turned {
+            Ok(turned) => turned,
+            Err(why) => {
+                let until = self.end.filter(|(nm, _)| *nm > 0.0).map_or(String::new(), |(nm, _)| {
+                    format!("; {} is carried", Unit::NewtonMetre.show(nm, 4))
+                });
+                return format!(
+                    "NOT HELD: {torque} is not carried: {}{until}{}",
+                    why.words(),
+                    self.over_words()
+                );
+            }
+        };
+        let word = if self.is_held() { "HELD" } else { "NOT HELD" };
+        let share = turned.iter().map(|s| largest(&s.shares())).fold(0.0, f64::max);
+        let least = turned.iter().map(Shared::carrying).min().unwrap_or(0);
+        let mut said = format!(
+            "{word}: at {torque} {least} of {} sprags carry, the largest share is {} of the mean",
+            self.sprags.len(),
+            significant(share, 4)
+        );
+        if let Some((i, pa)) = self.most_pressed() {
+            said += &format!(", sprag {} at {}", i + 1, Unit::Megapascal.show(pa, 4));
+            if let Some((most, _)) = self.allowed {
+                said += &format!(" of {} allowed", Unit::Megapascal.show(most, 4));
+            }
+        }
+        if let Some((i, needs)) = self.slipping() {
+            said += &format!(
+                "; sprag {} needs a friction of {} and has {}",
+                i + 1,
+                significant(needs, 3),
+                significant(self.sprags[i].sprag.friction, 3)
+            );
+        } else if let Some(count) = self.may_be_lost().filter(|_| self.is_held()) {
+            said += &match count {
+                0 => "; if the most pressed one failed, the others would be pressed beyond that".to_owned(),
+                1 => "; if the most pressed one failed, the others would still hold, after a second one not"
+                    .to_owned(),
+                _ => format!("; {count} may fail, each time the most pressed one, and the others still hold"),
+            };
+        } else if self.is_held() && self.loss_not_found() {
+            said += &format!(
+                "; how many may fail is not known: without {} more the forces on the others were not found; so many fewer are held",
+                if self.losses.len() == 1 { "one".to_owned() } else { self.losses.len().to_string() }
+            );
+        }
+        if let Some(peak_nm) = self.design.limits.peak_torque_nm.filter(|nm| *nm > self.torque_nm) {
+            said +=
+                &format!("; at peak torque, {}, `check` holds the worst", Unit::NewtonMetre.show(peak_nm, 4));
+        }
+        said
+    }
+
+    /// What is left out of sprags one by one.
+    pub(super) fn instead(&self) -> Vec<LeftOut> {
+        let clutch = &self.design.clutch;
+        let tan = self.sprags.iter().map(|r| r.bears.tan_omega).fold(0.0, f64::max);
+        let tracks = [clutch.races.inner_radius_m, clutch.races.outer_radius_m];
+        let slope = self.out_of_round_m.iter().zip(tracks).map(|(race, radius)| {
+            // Harmonics below that of the sprags; entry 1 is harmonic 2.
+            let below =
+                race.iter().enumerate().skip(1).take(clutch.sprags.count.saturating_sub(2).max(1) / 2);
+            below.map(|(k, a)| (k + 1) as f64 * a / radius).fold(0.0, f64::max)
+        });
+        let slope = slope.fold(0.0, f64::max);
+        vec![
+            LeftOut::new(
+                "slope of a bent track in the wedge angle",
+                "a track that bends is taken to recede and to give along itself, not to lean",
+                &if tan > 0.0 {
+                    format!("up to {} of tan ω of a sprag", Unit::Percent.show(slope / tan, 2))
+                } else {
+                    "not estimated".to_owned()
+                },
+            ),
+            LeftOut::new(
+                "what holds the races",
+                match [clutch.races.inner_rim, clutch.races.outer_rim].contains(&Rim::Held) {
+                    false => {
+                        "rings are free but for the shift of their axes: no housing, hub or flange stiffens them, and \
+                         their first harmonic is the shift"
+                    }
+                    true => {
+                        "a rim that the design holds does not yield at all, a free one is stiffened by nothing, and the \
+                         first harmonic of every ring is the shift of its axis"
+                    }
+                },
+                "not estimated; a housing round a thin race keeps it round: give its wall to the race",
+            ),
+            LeftOut::new(
+                "rolling on between unlike tracks",
+                "of the windup that a sprag's own deviation costs, what bodies yield meanwhile is that of sprags alike",
+                "the deviation over the radius, some 1e-4 of the windup",
+            ),
+            LeftOut::new("tilted tracks", "tracks have parallel axes", "not estimated"),
+            LeftOut::new(
+                "inertia of the sprags that catch",
+                "the torque rises slowly",
+                "not estimated: races do not wait for a late sprag",
+            ),
+        ]
+    }
+}

@@ -1,0 +1,239 @@
+//! What becomes of each sprag, in words: the verdict, remarks, what is left out.
+
+use super::SharingSceneAnswer;
+use crate::answer::Answer;
+use crate::answer::drawn::drawn_words;
+use crate::answer::left_out::{LeftOut, one_by_one};
+use crate::clutch::Carrier;
+use crate::dynamics::{Axes, StaysWith, Stop};
+use crate::report::{Unit, significant};
+
+impl SharingSceneAnswer<'_> {
+    /// The answer in a sentence.
+    pub(super) fn verdict_words(&self) -> String {
+        let run = &self.found.run;
+        let mut said = if self.held() { "HELD: " } else { "NOT HELD: " }.to_owned();
+        if let Some(why) = self.given_up() {
+            said += &format!("{why}; until then ");
+        } else if run.stop != Stop::Finished {
+            let at = run.at_group.and_then(|g| self.found.group.iter().position(|of| *of == Some(g)));
+            let whose = at.map_or(String::new(), |i| format!(" of sprag {}", i + 1));
+            said += &format!("{}{whose} at {}; ", run.stop.name(), Unit::Second.show(run.t_s, 4));
+        }
+        said += &match self.largest_share() {
+            Some((i, share, t_s)) if share > 0.0 => format!(
+                "the largest share is {} of the mean, sprag {} at {}",
+                significant(share, 4),
+                i + 1,
+                Unit::Millisecond.show(t_s, 4)
+            ),
+            _ => "no sprag was loaded".to_owned(),
+        };
+        if let Some((i, needs)) = self.most(|c| c.tan[0].max(c.tan[1])).filter(|(_, needs)| *needs > 0.0) {
+            said += &format!("; friction is used most by sprag {}, {}", i + 1, significant(needs, 3));
+        }
+        let order = self.catching();
+        let at = |i: &usize| self.course(*i).and_then(|c| c.catches_s);
+        if let [first, .., last] = order.as_slice()
+            && let (Some(from), Some(until)) = (at(first), at(last))
+            && until > from
+        {
+            said += &format!(
+                "; {} of {} sprags catch, the first, {}, at {}, the last, {}, at {}",
+                order.len(),
+                self.found.sprags.len(),
+                first + 1,
+                Unit::Millisecond.show(from, 4),
+                last + 1,
+                Unit::Millisecond.show(until, 4)
+            );
+        }
+        let late: Vec<String> = (0..self.found.sprags.len())
+            .filter(|&i| self.course(i).is_some_and(|c| c.catches_s.is_none()))
+            .map(|i| (i + 1).to_string())
+            .collect();
+        match late.as_slice() {
+            [] => {}
+            [one] => said += &format!("; sprag {one} never catches"),
+            several => said += &format!("; sprags {} never catch", several.join(", ")),
+        }
+        if self.found.axes.is_some() {
+            said += &format!(
+                "; the bearings hold at most {}, at {}",
+                Unit::Newton.show(run.bearing_max_n, 4),
+                Unit::Millisecond.show(run.bearing_max_s, 4)
+            );
+        }
+        said += &match self.first_slip() {
+            Some((i, t_s)) => format!(
+                "; once caught, {} slip{}, sprag {} first, at {}",
+                self.slipping(),
+                if self.slipping() == 1 { "s" } else { "" },
+                i + 1,
+                Unit::Millisecond.show(t_s, 4)
+            ),
+            None => "; none slips once it has caught".to_owned(),
+        };
+        said += &self.over_words();
+        said
+    }
+
+    /// What becomes of sprags that come to their end, in words.
+    fn over_words(&self) -> String {
+        let over = self.over();
+        let Some((first, t_s)) = over.first() else { return String::new() };
+        let carry = self.found.group.iter().flatten().count() - self.gone();
+        let lost = self.course(*first).and_then(|c| c.gone_s);
+        format!(
+            "; {} beyond the end of the curve, sprag {} first, at {}{}; {} over the highest place and {} no more, {carry} remain",
+            if over.len() == 1 { "one goes".to_owned() } else { format!("{} go", over.len()) },
+            first + 1,
+            Unit::Millisecond.show(*t_s, 4),
+            lost.map_or(", and comes back or stays there".to_owned(), |t_s| format!(
+                ", and loses contact at {}",
+                Unit::Millisecond.show(t_s, 4)
+            )),
+            if self.gone() == 1 { "one is".to_owned() } else { format!("{} are", self.gone()) },
+            if self.gone() == 1 { "bears" } else { "bear" },
+        )
+    }
+
+    /// What is said of races that bend: what is left out of them, or all of it.
+    fn bending_left_out(&self) -> LeftOut {
+        let Some(bends) = &self.found.bends else {
+            let cost = match self.found.shares_at_rest {
+                [Some(bent), Some(round), _] if self.found.counts.len() > 1 => format!(
+                    "at rest under {} the largest share is {} with it, {} without",
+                    Unit::NewtonMetre.show(self.found.largest_nm, 4),
+                    significant(bent, 4),
+                    significant(round, 4)
+                ),
+                _ => "0: sprags alike bend nothing beside the law".to_owned(),
+            };
+            return LeftOut::new(
+                "races that bend",
+                "sprags that are alike and in their even places leave the races round; more unlike ones than are integrated do not",
+                &cost,
+            );
+        };
+        let [inner, outer] = bends.lowest_mode_hz.map(|hz| Unit::Hertz.show(hz, 3));
+        LeftOut::new(
+            "inertia of the races that bend",
+            &format!(
+                "they bend as at rest: alone the inner race swings at {inner}, the outer at {outer}, the scene drives \
+                 them at {}; what they recede is off by the square of that over the lowest, and so where sprags shock \
+                 them within one such swing",
+                Unit::Hertz.show(bends.scene_hz, 3)
+            ),
+            &format!("{} of what they bend", Unit::Percent.show(bends.left_out(), 2)),
+        )
+    }
+
+    pub(super) fn left_out(&self) -> Vec<LeftOut> {
+        let mut instead = vec![
+            self.bending_left_out(),
+            LeftOut::new(
+                "a sprag before it touches",
+                "one that lacks something to touch is turned along without a force, and joins rolling",
+                "its inertia, below 1e-4 of a race's",
+            ),
+        ];
+        if self.found.axes.is_some() {
+            let [windup_rad, reach_m] = self.found.off_centre;
+            instead.push(LeftOut::new(
+                "a contact that run-out brings over a junction",
+                "a sprag in its own gap rolls by a polynomial of the place of the axis, on the arc that its load stands for",
+                &format!(
+                    "up to {} of windup with the axes {} apart",
+                    Unit::Degree.show(windup_rad, 2),
+                    Unit::Micrometre.show(reach_m, 3)
+                ),
+            ));
+        }
+        one_by_one(self.design, instead)
+    }
+
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let mut all = self.design.sharing.as_ref().map(drawn_words).unwrap_or_default();
+        let run = &self.found.run;
+        let kinds = self.found.counts.len();
+        if kinds == 1 {
+            all.push("Those that carry are alike: one is computed for all, as `simulate` does".to_owned());
+        }
+        let left = if run.through_j > 0.0 { run.residual_j.abs() / run.through_j } else { 0.0 };
+        let error = self.found.error.map_or("no second run was finished".to_owned(), |[theta, normal]| {
+            format!(
+                "two runs differ by {} rad in θ and {} of the largest N",
+                significant(theta, 2),
+                significant(normal, 2)
+            )
+        });
+        all.push(format!(
+            "{kinds} {} computed, {} changes, {} steps; {error}; the energy balance leaves {} of what went through",
+            if kinds == 1 { "kind of sprags is" } else { "kinds of sprags are" },
+            run.events,
+            run.counters.steps,
+            significant(left, 2)
+        ));
+        all.extend(self.found.axes.as_ref().map(|axes| self.axes_words(axes)));
+        if kinds > 1 {
+            all.push(self.bending_words());
+        }
+        all
+    }
+
+    /// What bending does, and what of it is left out.
+    fn bending_words(&self) -> String {
+        let left = self.bending_left_out();
+        match (&self.found.bends, self.found.shares_at_rest) {
+            (Some(bends), [Some(bent), Some(round), _]) => format!(
+                "The races bend: at rest under {} the largest share is {} with it, {} without; the lowest mode of a ring \
+                 is {}, the scene's {}, which leaves out {}",
+                Unit::NewtonMetre.show(self.found.largest_nm, 4),
+                significant(bent, 4),
+                significant(round, 4),
+                Unit::Hertz.show(bends.lowest_mode_hz[0].min(bends.lowest_mode_hz[1]), 3),
+                Unit::Hertz.show(bends.scene_hz, 3),
+                left.cost
+            ),
+            _ => format!("Left out: {}; {}", left.term, left.cost),
+        }
+    }
+
+    /// What the axes of the races do.
+    fn axes_words(&self, axes: &Axes) -> String {
+        let run = &self.found.run;
+        let um = |m: f64| Unit::Micrometre.show(m, 3);
+        let kg = |mass: f64| format!("{} kg", significant(mass, 3));
+        let stays = match axes.stays_with {
+            _ if axes.offset_m == 0.0 => String::new(),
+            StaysWith::Space => {
+                format!(", {} of it in space, past which the clutch turns", um(axes.offset_m))
+            }
+            StaysWith::Race(Carrier::InnerRace) => {
+                format!(", {} of it with the inner race", um(axes.offset_m))
+            }
+            StaysWith::Race(Carrier::OuterRace) => {
+                format!(", {} of it with the outer race", um(axes.offset_m))
+            }
+        };
+        let held = match axes.bearing {
+            None => "they are held".to_owned(),
+            Some(b) if b.stiffness_n_per_m == 0.0 => {
+                format!("nothing but the sprags holds {}", kg(b.mass_kg))
+            }
+            Some(b) => format!(
+                "{} swing on the bearings at {}; without inertia they would be off by (f/f₀)² of what moves at f",
+                kg(b.mass_kg),
+                Unit::Hertz.show(b.frequency_hz(), 3)
+            ),
+        };
+        let beyond = match self.found.off_centre[1] {
+            reach_m if run.axis_max_m > reach_m * (1.0 + 1e-9) => {
+                format!("; beyond {} the gaps are extrapolated", um(reach_m))
+            }
+            _ => String::new(),
+        };
+        format!("The axes lie up to {} apart{stays}; {held}{beyond}", um(run.axis_max_m))
+    }
+}
