@@ -34,8 +34,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 pub struct Follow {
     stop: Option<Arc<AtomicBool>>,
     clock: Option<Arc<Clock>>,
-    told: Option<Arc<dyn Fn(News<'_>) + Send + Sync>>,
+    told: Option<Arc<Told>>,
 }
+
+type Told = dyn Fn(News<'_>) + Send + Sync;
 
 /// What a computation of many parts tells, from any of its threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
