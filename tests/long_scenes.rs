@@ -141,3 +141,40 @@ fn periods_that_repeat_are_added_and_not_run() {
     // A scene that is no longer than all before runs every period.
     assert!(simulate(&lasting("high-6", 4.0, 100.0), &Settings::default()).unwrap().jump.is_none());
 }
+
+/// The scene `name` with another amplitude, and static and kinetic friction where `mu` says so.
+fn opening(name: &str, amplitude_nm: f64, mu: Option<f64>, seconds: f64) -> Scenario {
+    let mut long = lasting(name, seconds, 100.0);
+    if let ScenarioKind::TorsionalExcitation { amplitude_nm: amplitude, .. } = &mut long.kind {
+        *amplitude = amplitude_nm;
+    }
+    if let Some(mu) = mu {
+        (long.clutch.friction.static_, long.clutch.friction.kinetic) = (mu, mu);
+    }
+    long
+}
+
+/// Contacts that open, bounce and slip in each period make the choice of steps erratic; the motion repeats all the same.
+#[test]
+fn periods_in_which_the_contact_opens_are_added_too() {
+    for (name, amplitude_nm, mu, changes) in
+        [("high-10", 14.0, None, 26), ("high-10", 20.0, None, 40), ("low-10-mu082", 10.0, Some(0.08), 4)]
+    {
+        let settings = Settings { energy: true, ..Settings::default() };
+        let scene = opening(name, amplitude_nm, mu, 4.503);
+        let jumped = simulate(&scene, &settings).unwrap();
+        let whole = simulate(&scene, &Settings { every_period: true, ..settings.clone() }).unwrap();
+        let worst = jumped.scales.worst_figure(&jumped.off(&whole));
+        println!("{name} {amplitude_nm}: {:?}; off {worst:?}", jumped.jump);
+        assert!(worst.1 < settings.tolerance && jumped.verdict == whole.verdict);
+        assert_eq!(jumped.events, whole.events);
+        assert!(jumped.energy.unwrap().relative().abs() < 1e-6);
+        let long = simulate(&opening(name, amplitude_nm, mu, 60.0), &settings).unwrap();
+        let jump = long.jump.unwrap();
+        println!("   60 s: {jump:?}, {} steps", long.steps);
+        // Every period of the finest run would be 6000; of all runs, 2 million steps.
+        assert!(jump.from_s < 3.0 && long.steps < 200_000, "{jump:?}, {} steps", long.steps);
+        assert!(jump.events == changes && jump.error <= 0.1 * settings.tolerance);
+        assert!(long.tolerance_reached, "{:?}", long.error);
+    }
+}

@@ -7,12 +7,12 @@ use super::events::{EVENTS, INNER, LOWER, OUTER, Probe, UPPER, event, probe};
 use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::probes::{NeverPositive, Observed, Probes, Trail};
 use super::repeat::Repeat;
-use super::run::{FastMotion, Run, RunSettings, Stop};
+use super::run::{FastMotion, Run, RunSettings, Stop, tolerance_at};
 use super::watch::{Watch, highest, sample_extremes};
 use super::zeno::{Zeno, resolution_s};
 use crate::ode::adaptive::{Adaptive, Size};
 use crate::ode::rhs::RightHandSide;
-use crate::ode::step::{Dense, Room, Step};
+use crate::ode::step::{Dense, Room, Step, Tolerance};
 use nalgebra::Const;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
@@ -47,6 +47,8 @@ where
     /// When the mode has changed last, s, and at which event.
     pub(super) landed: (f64, usize),
     pub(super) stepper: Adaptive<N>,
+    /// Relative tolerance of its steps, that of the settings but where a motion that repeats is run more finely.
+    pub(super) tolerance: f64,
     /// Slope and probe at the present state where the last step has left them.
     pub(super) slope: Option<[f64; N]>,
     pub(super) probed: Option<Probe>,
@@ -92,6 +94,7 @@ where
             repeat: settings.jump_period_s.map(Repeat::new),
             landed: (f64::NAN, EVENTS),
             stepper: Adaptive::new(settings.tolerance_in(&mode), settings.longest_step_s * 0.1, SMALL),
+            tolerance: settings.tolerance,
             slope: None,
             probed: None,
             most_slip_m: None,
@@ -438,7 +441,8 @@ where
             }
         }
         self.stepper.forget();
-        self.stepper.tolerance = self.settings.tolerance_in(&mode);
+        let datum = self.stepper.tolerance.datum;
+        self.stepper.tolerance = Tolerance { datum, ..tolerance_at(self.tolerance, &mode) };
         (self.slope, self.probed) = (None, None);
     }
 

@@ -9,21 +9,42 @@
 //! * [`HIDDEN`] times the largest g over one to [`STEADY`] periods, where that is no larger than over one: what is left scatters by
 //!   the steps of integration, and no trend of a seventh of it a period is in it.
 //!
-//! Once the smaller stays below the tolerance of the steps for [`STEADY`] periods in a row, each with as many changes of mode, one
-//! more period is run, the template of all samples to come, and n of it are added. Runs at several tolerances jump each for
-//! itself, so their difference holds what the jump did too.
+//! Once the smaller stays below the tolerance of the steps, or [`super::RunSettings::jump_error`], for [`STEADY`] periods in a row,
+//! each with as many changes of mode, one more period is run, the template of all samples to come, and n of it are added. Runs at
+//! several tolerances jump each for itself, so their difference holds what the jump did too.
+//!
+//! Three things let a motion repeat that does:
+//!
+//! * Every period begins with the same length of step, and what runs on counts for the tolerance as from the period before: where
+//!   contact stays or opens softly, equal states are then left by equal steps, and g falls to rounding.
+//! * Where it does not, since many short slips make the choice of steps erratic, g stays at the scatter of the steps, n times
+//!   some hundredth of their tolerance. Then the tolerance falls by [`FINER`], for the periods that follow alone: what is added is
+//!   better known than one period of the run.
+//! * A motion that repeats with every second to [`STEADY`]th period only is compared and added by so many.
+//!
+//! A motion that does not repeat within [`PATIENCE`] finer periods, a chaotic one, is run to the end as it began.
 
-use super::driver::Driver;
+use super::driver::{Driver, KINDS};
 use super::model::{Mode, Model, N_STATE};
 use super::run::{Sample, SlipRecord};
 use super::zeno::Zeno;
-use crate::ode::adaptive::Size;
+use crate::ode::adaptive::{Pace, Size};
 use nalgebra::Const;
 
 /// Periods in a row that must be alike: a choice.
 const STEADY: usize = 8;
 /// What a decay too slow to show in the scatter may add, by the scatter: a choice.
 const HIDDEN: f64 = 10.0;
+/// What the tolerance of the steps falls by where their scatter is too large: a choice.
+const FINER: f64 = 1e-3;
+/// Least tolerance of steps.
+const FINEST: f64 = 1e-12;
+/// What of the tolerance of the steps may be left in what a period adds, at most, for all that differs to count as their scatter.
+const SCATTER: f64 = 10.0;
+/// Finer periods that are run in vain at most: a choice.
+const PATIENCE: u64 = 400;
+/// What the difference to the period so many before may be of that to the one before where a motion repeats with so many: a choice.
+const SEVERAL: f64 = 0.1;
 /// Least ratio of a difference to the one before that is believed.
 const LEAST_RATIO: f64 = 0.5;
 
@@ -57,14 +78,23 @@ struct Section<const N: usize> {
 /// The ends of periods so far.
 #[derive(Debug, Clone)]
 pub(super) struct Repeat<const N: usize> {
-    period_s: f64,
-    /// Whole periods run.
+    /// Period of what acts, s.
+    base_s: f64,
+    /// With how many of these the motion is taken to repeat: a period from here on.
+    each: u64,
+    /// How many before may be alike, and for how many ends that has been so.
+    several: (usize, usize),
+    /// Base periods run.
     count: u64,
+    /// How many had been when length or steps of a period last changed.
+    since: u64,
     /// Its last ends, the newest last.
     sections: Vec<Section<N>>,
     /// The last differences, the newest first.
     differences: [f64; STEADY],
     alike: usize,
+    /// Length of the first step of a period, and of those by kind of mode.
+    pace: Option<(Pace, [f64; KINDS])>,
     /// A template begins here: its start, the periods to add, their error.
     template: Option<(Section<N>, u64, f64)>,
     /// Samples to come: number, whole periods later than the template, time within it (s); the earliest last.
@@ -76,11 +106,15 @@ pub(super) struct Repeat<const N: usize> {
 impl<const N: usize> Repeat<N> {
     pub(super) fn new(period_s: f64) -> Self {
         Self {
-            period_s,
+            base_s: period_s,
+            each: 1,
+            several: (1, 0),
             count: 0,
+            since: 0,
             sections: Vec::with_capacity(STEADY + 2),
             differences: [f64::INFINITY; STEADY],
             alike: 0,
+            pace: None,
             template: None,
             wanted: Vec::new(),
             taken: Vec::new(),
@@ -89,7 +123,12 @@ impl<const N: usize> Repeat<N> {
 
     /// End of the present period, s.
     pub(super) fn end_s(&self) -> f64 {
-        (self.count + 1) as f64 * self.period_s
+        (self.count + self.each) as f64 * self.base_s
+    }
+
+    /// Length of a period, s.
+    fn period_s(&self) -> f64 {
+        self.each as f64 * self.base_s
     }
 }
 
@@ -101,7 +140,7 @@ where
     pub(super) fn left_s(driver: &mut Driver<'_, N>) -> f64 {
         let Some(mut repeat) = driver.repeat.take() else { return f64::INFINITY };
         if driver.run.t_s >= repeat.end_s() * (1.0 - 1e-14) {
-            repeat.count += 1;
+            repeat.count += repeat.each;
             match repeat.template.take() {
                 Some((start, periods, error)) => {
                     repeat.jump(driver, &start, periods, error);
@@ -109,27 +148,51 @@ where
                 }
                 None => repeat.compare(driver),
             }
+            if driver.tolerance < driver.settings.tolerance && repeat.count - repeat.since > PATIENCE {
+                driver.tolerance = driver.settings.tolerance;
+                driver.renew(driver.run.mode);
+                return f64::INFINITY;
+            }
+            repeat.begin_alike(driver);
         }
         let left_s = repeat.end_s() - driver.run.t_s;
         driver.repeat = Some(repeat);
         left_s
     }
 
+    /// The next period begins as every other: its steps are then those of the one before where its state is.
+    fn begin_alike(&mut self, driver: &mut Driver<'_, N>) {
+        let pace = (driver.stepper.pace(), driver.lengths);
+        if self.count - self.since <= STEADY as u64 * self.each {
+            self.pace = Some(pace);
+        }
+        let (pace, lengths) = self.pace.unwrap_or(pace);
+        driver.stepper.go_on_at(pace);
+        driver.lengths = lengths;
+        (driver.slope, driver.probed) = (None, None);
+        if let [.., before, _] = self.sections[..] {
+            let runs_on = |i: usize| if runs_on(driver.model, i) { before.state[i] } else { 0.0 };
+            driver.stepper.tolerance.datum = std::array::from_fn(runs_on);
+        }
+        driver.renew(driver.run.mode);
+    }
+
     /// What has come back at the end of a period of `driver`'s run, and whether the next is a template.
-    fn compare(&mut self, driver: &Driver<'_, N>) {
+    fn compare(&mut self, driver: &mut Driver<'_, N>) {
         let now = Section::of(driver);
         self.sections.push(now);
         let last = self.sections.len() - 1;
         if last < 2 {
             return;
         }
-        let left = ((driver.settings.duration_s - driver.run.t_s) / self.period_s * (1.0 + 1e-12)).floor();
+        let period_s = self.period_s();
+        let left = ((driver.settings.duration_s - driver.run.t_s) / period_s * (1.0 + 1e-12)).floor();
         // One is run as a template.
         let periods = left - 1.0;
-        let (s, period_s) = (&self.sections, self.period_s);
+        let s = &self.sections;
         let gained = |k: usize| gain(&s[k - 1], &s[k]);
         let off = |lag: usize| {
-            difference(driver, period_s, &s[last - lag], &now, &gained(last - lag), &gained(last), periods)
+            difference(&*driver, period_s, &s[last - lag], &now, &gained(last - lag), &gained(last), periods)
         };
         self.differences.rotate_right(1);
         self.differences[0] = off(1);
@@ -140,13 +203,19 @@ where
         let decays = if decay < 1.0 { recent * decay / (1.0 - decay) } else { f64::INFINITY };
         let whole = last == STEADY + 1;
         // All lags, so that a motion that repeats with every second period only is none.
-        let apart = if whole { (1..=STEADY).map(off).fold(0.0, f64::max) } else { f64::INFINITY };
-        let scatters = if apart <= 2.0 * recent.max(earlier) { HIDDEN * apart } else { f64::INFINITY };
-        let error = decays.min(scatters);
+        let lags: [f64; STEADY] = std::array::from_fn(|k| if whole { off(k + 1) } else { f64::INFINITY });
+        let apart = largest(&lags);
+        let is_scatter = whole && apart <= 2.0 * recent.max(earlier);
+        let error = decays.min(if is_scatter { HIDDEN * apart } else { f64::INFINITY });
         let alike = now.mode == s[last - 1].mode && gained(last - 1).2 == gained(last).2;
-        self.alike = if alike && error <= driver.settings.tolerance { self.alike + 1 } else { 0 };
+        let allowed = driver.settings.tolerance.max(driver.settings.jump_error);
+        self.alike = if alike && error <= allowed { self.alike + 1 } else { 0 };
         if whole {
             self.sections.remove(0);
+        }
+        if self.alike == 0 && whole {
+            let of_steps = is_scatter && apart <= SCATTER * periods * driver.tolerance;
+            self.mend(driver, &lags, of_steps);
         }
         if self.alike < STEADY || periods < 1.0 {
             return;
@@ -155,8 +224,8 @@ where
         self.template = Some((now, periods, error));
         let from = self.end_s();
         // A sample at the very end is one of them, whatever rounding says.
-        let until = (self.count + 1 + periods) as f64 * self.period_s * (1.0 + 1e-12);
-        let (start_s, period_s) = (driver.run.t_s, self.period_s);
+        let until = (self.count + self.each * (1 + periods)) as f64 * self.base_s * (1.0 + 1e-12);
+        let start_s = driver.run.t_s;
         self.wanted = (driver.watch.next_sample..driver.settings.samples)
             .map(|i| (i, driver.watch.sample_time(i)))
             .skip_while(|&(_, t)| t <= from)
@@ -170,14 +239,33 @@ where
         self.wanted.sort_by(|a, b| b.2.total_cmp(&a.2));
     }
 
+    /// What keeps a motion from repeating is done away with: it repeats with several periods, by the differences to the last,
+    /// `lags`, or all that differs is `of_steps`.
+    fn mend(&mut self, driver: &mut Driver<'_, N>, lags: &[f64; STEADY], of_steps: bool) {
+        let lag = (2..=STEADY).find(|lag| lags[lag - 1] < SEVERAL * lags[0]).unwrap_or(1);
+        let ends = if lag == self.several.0 { self.several.1 + 1 } else { 1 };
+        self.several = (lag, ends);
+        if lag > 1 && ends >= STEADY && self.each == 1 {
+            self.each = lag as u64;
+        } else if of_steps && driver.tolerance > FINEST {
+            driver.tolerance = (FINER * driver.tolerance).max(FINEST);
+        } else {
+            return;
+        }
+        self.since = self.count;
+        self.differences = [f64::INFINITY; STEADY];
+        self.sections.drain(..self.sections.len() - 1);
+    }
+
     /// Add to `driver`'s run `periods` of the template that began at `start` and ends now. The rest of the run, less than a period, is run.
     fn jump(mut self, driver: &mut Driver<'_, N>, start: &Section<N>, periods: u64, error: f64) {
         let (model, now) = (driver.model, Section::of(driver));
         let (drift, added, events) = gain(start, &now);
-        let (n, span_s) = (periods as f64, periods as f64 * self.period_s);
+        let (n, period_s) = (periods as f64, self.period_s());
+        let span_s = n * period_s;
         let from_s = driver.run.t_s;
         for (_, later, sample) in &mut self.taken {
-            sample.t += *later * self.period_s;
+            sample.t += *later * period_s;
             for i in (0..N).filter(|&i| runs_on(model, i)) {
                 sample.state[i] += *later * drift[i];
             }
@@ -205,10 +293,10 @@ where
         }
         driver.phase =
             driver.phase.map(|phase| phase + n * (drift[2] - if runs_on(model, 3) { drift[3] } else { 0.0 }));
-        driver.run.t_s = (self.count + periods) as f64 * self.period_s;
+        driver.run.t_s = (self.count + self.each * periods) as f64 * self.base_s;
         (driver.slope, driver.probed) = (None, None);
         (driver.zeno, driver.landed) = (Zeno::new(), (f64::NAN, super::events::EVENTS));
-        driver.run.jump = Some(Jump { from_s, periods, period_s: self.period_s, error, events });
+        driver.run.jump = Some(Jump { from_s, periods, period_s, error, events });
     }
 
     /// Whether a sample of the template lies before `until_s`.

@@ -24,7 +24,8 @@ pub struct RollingTrack {
 }
 
 /// The tolerance of steps that nobody judges.
-const ANY: Tolerance<4> = Tolerance { relative: 1.0, absolute: [1.0; 4], integrated: [0.0; 4] };
+const ANY: Tolerance<4> =
+    Tolerance { relative: 1.0, absolute: [1.0; 4], integrated: [0.0; 4], datum: [0.0; 4] };
 /// Half of what the parabola about a peak spans, as a part of the step: what it leaves out goes with its fourth power.
 const ABOUT: f64 = 0.02;
 

@@ -26,6 +26,8 @@ pub struct RunSettings {
     pub samples: usize,
     /// Period of all that acts, s, where whole periods are jumped once the motion repeats ([`super::Jump`]); `None`: none are.
     pub jump_period_s: Option<f64>,
+    /// What a jump may be wrong by in any figure, by its natural size, where the tolerance of the steps is less.
+    pub jump_error: f64,
     /// Pure rolling: no friction limit, contact held by tension below first contact.
     pub rolling: bool,
     /// Whether works are counted for the energy balance; costs some fifteen evaluations a step.
@@ -47,6 +49,7 @@ impl Default for RunSettings {
             most_steps: 10_000_000,
             samples: 0,
             jump_period_s: None,
+            jump_error: 0.0,
             rolling: false,
             energy: false,
             history: History::default(),
@@ -314,24 +317,27 @@ impl RunSettings {
     /// * Slip distances: almost no absolute error. Where friction falls with speed a slip grows from 0 like an exponential,
     ///   and its first steps decide when it is large. Steps coarser than [`COARSE`] do not follow that; they may err more.
     pub(super) fn tolerance_in<const N: usize>(&self, mode: &Mode) -> Tolerance<N> {
-        let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
-        let outer = mode.outer == Grip::Stick;
-        let relative = if inner && outer { 0.2 * self.tolerance } else { self.tolerance };
-        let slip = if self.tolerance > COARSE { 1e-2 * relative } else { 1e-9 * relative };
-        let (angle, rate) = (1e-2 * relative, 5.0 * relative);
-        let unless = |follows: bool| if follows { f64::INFINITY } else { rate };
-        let (alpha, phi) = (unless(inner && outer), unless(inner || outer));
-        Tolerance {
-            relative,
-            absolute: train::beside(
-                [angle, angle, angle, angle, alpha, phi, rate, rate, slip, slip],
-                [angle, rate],
-            ),
-            integrated: train::beside(
-                [0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0],
-                [0.0, angle],
-            ),
-        }
+        tolerance_at(self.tolerance, mode)
+    }
+}
+
+/// The same at `tolerance`.
+pub(super) fn tolerance_at<const N: usize>(tolerance: f64, mode: &Mode) -> Tolerance<N> {
+    let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
+    let outer = mode.outer == Grip::Stick;
+    let relative = if inner && outer { 0.2 * tolerance } else { tolerance };
+    let slip = if tolerance > COARSE { 1e-2 * relative } else { 1e-9 * relative };
+    let (angle, rate) = (1e-2 * relative, 5.0 * relative);
+    let unless = |follows: bool| if follows { f64::INFINITY } else { rate };
+    let (alpha, phi) = (unless(inner && outer), unless(inner || outer));
+    Tolerance {
+        relative,
+        absolute: train::beside(
+            [angle, angle, angle, angle, alpha, phi, rate, rate, slip, slip],
+            [angle, rate],
+        ),
+        integrated: train::beside([0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0], [0.0, angle]),
+        datum: [0.0; N],
     }
 }
 

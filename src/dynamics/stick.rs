@@ -390,7 +390,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
 fn tolerance(settings: &RunSettings) -> Tolerance<4> {
     let relative = 0.2 * settings.tolerance;
     let (angle, rate) = (1e-2 * relative, 5.0 * relative);
-    Tolerance { relative, absolute: [angle, angle, rate, rate], integrated: [0.0; 4] }
+    Tolerance { relative, absolute: [angle, angle, rate, rate], integrated: [0.0; 4], datum: [0.0; 4] }
 }
 
 /// Where, as a fraction of the step, w leaves its arc first; `Some(None)`: nowhere. `None`: the right-hand side failed.

@@ -229,7 +229,8 @@ mod tests {
     }
 
     fn end_error(n: usize) -> (f64, f64) {
-        let tolerance = Tolerance { relative: 1.0, absolute: [1.0; 3], integrated: [0.0; 3] };
+        let tolerance =
+            Tolerance { relative: 1.0, absolute: [1.0; 3], integrated: [0.0; 3], datum: [0.0; 3] };
         let mut counters = Counters::default();
         let (mut t, mut y) = (0.0, [0.0, 1.0, 0.0]);
         let h = 2.0 / n as f64;

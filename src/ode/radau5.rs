@@ -379,7 +379,8 @@ impl<const N: usize> Step<N> {
 mod tests {
     use super::*;
 
-    const TOLERANCE: Tolerance<3> = Tolerance { relative: 1e-8, absolute: [1e-8; 3], integrated: [0.0; 3] };
+    const TOLERANCE: Tolerance<3> =
+        Tolerance { relative: 1e-8, absolute: [1e-8; 3], integrated: [0.0; 3], datum: [0.0; 3] };
 
     /// y'' = -y, and a third component on a stiff spring to a known motion: y3' = -k (y3 - cos t) - sin t.
     fn rhs(k: f64) -> impl FnMut(f64, &[f64; 3]) -> Result<[f64; 3], ()> {

@@ -20,7 +20,7 @@ pub struct Counters {
     pub factorisations: u64,
 }
 
-/// Tolerances per component: |error_i| <= absolute_i + relative |y_i|.
+/// Tolerances per component: |error_i| <= absolute_i + relative |y_i - datum_i|.
 #[derive(Debug, Clone, Copy)]
 pub struct Tolerance<const N: usize> {
     /// Relative part, pure number.
@@ -30,12 +30,15 @@ pub struct Tolerance<const N: usize> {
     /// Implicit steps only: what a component may be wrong by, times h, in the unit of its integral. For rates, the
     /// tolerance of the angle: an oscillation far faster than the step is felt through the angle alone.
     pub integrated: [f64; N],
+    /// What the size of a component is counted from: 0, but for what runs on without end.
+    pub datum: [f64; N],
 }
 
 impl<const N: usize> Tolerance<N> {
     /// Size of the error that component `i` may have.
     pub(super) fn scale(&self, i: usize, a: f64, b: f64) -> f64 {
-        self.absolute[i] + self.relative * a.abs().max(b.abs())
+        let size = |y: f64| (y - self.datum[i]).abs();
+        self.absolute[i] + self.relative * size(a).max(size(b))
     }
 }
 

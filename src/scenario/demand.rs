@@ -46,6 +46,9 @@ pub(super) const STEPS_PER_PERIOD: f64 = 4.0;
 /// The same where peaks of a single run must be good to a hundredth of the tolerance.
 pub(super) const STEPS_PER_PERIOD_OF_DEMAND: f64 = 14.0;
 
+/// What periods that are jumped may move a figure by, as a part of the error that it may have.
+const JUMPED: f64 = 0.1;
+
 /// How fine a run is.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fineness {
@@ -82,6 +85,7 @@ pub(super) fn run_settings(
         most_steps,
         samples,
         jump_period_s: settings.jump_period_s(prepared),
+        jump_error: JUMPED * settings.tolerance,
         rolling: false,
         energy: settings.energy,
         history: settings.history,

@@ -327,7 +327,8 @@ impl<'a, const N: usize> Going<'a, N> {
 
     /// As of one sprag ([`RunSettings::tolerance_in`]), each by its own mode.
     fn tolerance(&self) -> Tolerance<N> {
-        let mut all = Tolerance { relative: 0.0, absolute: [f64::INFINITY; N], integrated: [0.0; N] };
+        let (absolute, none) = ([f64::INFINITY; N], [0.0; N]);
+        let mut all = Tolerance { relative: 0.0, absolute, integrated: none, datum: none };
         for (g, motion) in self.rhs.motions.iter().enumerate().filter(|(_, m)| !m.waits) {
             let own = self.settings.tolerance_in::<N_STATE>(&motion.mode);
             all.relative = own.relative.max(all.relative);
