@@ -19,7 +19,7 @@
 //! Left out beside that: what u changes in OA and OB, some 1e-4 of them, and how the part T/N of a track's force changes with the load or in
 //! slip.
 
-use super::{SpragGroup, SpragMotion, state_of};
+use super::{EACH, HEAD, SpragGroup, SpragMotion};
 use crate::dynamics::model::{Model, Place};
 use crate::numeric::panels::Panels;
 use crate::numeric::{quadrature, root};
@@ -227,7 +227,8 @@ pub(super) struct Bent<'a> {
     alphas: Vec<f64>,
     /// Whether each carries where pressed, and its arc.
     seats: Vec<Option<usize>>,
-    solved: bool,
+    /// Whether what was solved last is what the sprags have moved on from, on the same seats.
+    near: bool,
     /// D(alpha), m; N(D), N.
     approach: Vec<f64>,
     own_n: Vec<f64>,
@@ -252,7 +253,7 @@ impl<'a> Bent<'a> {
             rings,
             alphas: vec![f64::NAN; n],
             seats: vec![None; n],
-            solved: false,
+            near: false,
             approach: zeros(),
             own_n: zeros(),
             h: zeros(),
@@ -275,7 +276,7 @@ impl<'a> Bent<'a> {
                 Place::Arc(k) if !motion.waits => Some(k),
                 _ => None,
             };
-            moved |= self.place(g, state_of(y, g)[0], seat, &groups[g].model);
+            moved |= self.place(g, y[HEAD + EACH * g], seat, &groups[g].model);
         }
         if moved {
             self.solve();
@@ -289,12 +290,10 @@ impl<'a> Bent<'a> {
         }
         let of = &self.rings.approaches[g];
         let k = seat.unwrap_or_else(|| model.curve.arc_at(alpha).min(of.by_alpha.len() - 1));
-        let before = self.approach[g];
+        self.near &= self.seats[g] == seat;
         (self.alphas[g], self.seats[g]) = (alpha, seat);
         self.approach[g] = of.at(k, alpha);
         self.own_n[g] = of.normal(self.approach[g]).0;
-        // What it has gone is the first guess of how much further it is pressed.
-        self.h[g] = if self.solved { self.h[g] + (self.approach[g] - before) } else { self.approach[g] };
         true
     }
 
@@ -302,10 +301,16 @@ impl<'a> Bent<'a> {
     pub(super) fn solve(&mut self) {
         let n = self.h.len();
         let scale = self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max);
-        let mut last = f64::INFINITY;
-        self.solved = false;
-        for _ in 0..MOST {
-            self.forces();
+        let (mut last, mut solved) = (f64::INFINITY, false);
+        if !self.near {
+            self.h.copy_from_slice(&self.approach);
+            self.factored = false;
+        }
+        for step in 0..MOST {
+            // From what was solved last the first step goes along the tangents there.
+            if step > 0 || !self.near {
+                self.forces();
+            }
             for i in 0..n {
                 self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
             }
@@ -314,12 +319,15 @@ impl<'a> Bent<'a> {
             }
             self.substitute();
             let size = self.step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
-            self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
-            if size <= SOLVED * scale || size <= NEARLY * scale && size >= 0.5 * last {
-                self.solved = true;
+            // A largest one knows no NaN, and once kept it would stay: a trial step may stand anywhere.
+            if !self.step.iter().all(|step| step.is_finite()) {
                 break;
             }
-            if size.is_nan() {
+            self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
+            // Steps shrink at least as the last ones did: what the next one would be.
+            let next = if step > 1 { size * (size / last) } else { size };
+            if next <= SOLVED * scale || size <= NEARLY * scale && size >= 0.5 * last {
+                solved = true;
                 break;
             }
             if size > last {
@@ -329,10 +337,12 @@ impl<'a> Bent<'a> {
             self.factored = size <= SLOW * last;
             last = size;
         }
-        if self.solved {
-            // The last step moves N by parts in 1e14, u by less.
-            for (normal, (slope, step)) in self.normal.iter_mut().zip(self.slopes.iter().zip(&self.step)) {
-                *normal -= slope * step;
+        self.near = solved;
+        if solved {
+            // Along the tangents of the last step, which leaves its square.
+            for i in 0..n {
+                self.normal[i] -= self.slopes[i] * self.step[i];
+                self.recede[i] = self.approach[i] - self.h[i];
             }
         } else {
             self.factored = false;
@@ -350,8 +360,10 @@ impl<'a> Bent<'a> {
                 None => (0.0, 0.0),
             };
         }
-        for (recede, row) in self.recede.iter_mut().zip(self.rings.opens_m_per_n.chunks(n)) {
-            *recede = row.iter().zip(&self.normal).map(|(m, n)| m * n).sum();
+        // By columns, which are the rows.
+        self.recede.fill(0.0);
+        for (normal, row) in self.normal.iter().zip(self.rings.opens_m_per_n.chunks(n)) {
+            self.recede.iter_mut().zip(row).for_each(|(recede, m)| *recede += m * normal);
         }
     }
 
@@ -382,12 +394,12 @@ impl<'a> Bent<'a> {
                     self.factors.swap(k * n + j, best * n + j);
                 }
             }
-            for i in k + 1..n {
-                let part = self.factors[i * n + k] / pivot;
-                self.factors[i * n + k] = part;
-                for j in k + 1..n {
-                    self.factors[i * n + j] -= part * self.factors[k * n + j];
-                }
+            let (above, below) = self.factors.split_at_mut((k + 1) * n);
+            for row in below.chunks_mut(n) {
+                let part = row[k] / pivot;
+                row[k] = part;
+                let from = &above[k * n + k + 1..];
+                row[k + 1..].iter_mut().zip(from).for_each(|(f, of)| *f -= part * of);
             }
         }
         self.factored = true;

@@ -152,10 +152,14 @@ impl<'a> Rhs<'a> {
 
     /// Where group `g` stands in its place, `own` its state in y.
     pub(super) fn stands(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
-        let more_n = match place {
-            Place::Arc(_) => self.bent(y, |bent| bent.more_n(g)),
-            _ => None,
-        };
+        self.bent(y, |_| ());
+        self.stands_there(g, place, t, y, own)
+    }
+
+    /// The same where the races are bent as `y` has them already.
+    fn stands_there(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
+        let bent = self.bent.as_ref().filter(|_| matches!(place, Place::Arc(_)));
+        let more_n = bent.and_then(|bent| Some(bent.try_borrow().ok()?.more_n(g)));
         self.groups[g].sight(self.axes, self.groups.len(), place, t, y, own, more_n)
     }
 
@@ -240,6 +244,7 @@ impl<'a> Rhs<'a> {
     pub(super) fn look<const RADIAL: bool>(&mut self, t: f64, y: &[f64]) -> Vector4<f64> {
         let races = &self.groups[0].model;
         let f = self.torques_nm(t, y);
+        self.bent(y, |_| ());
         for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
             (self.parts[g], self.seen[g]) = (None, None);
             if motion.waits {
@@ -247,7 +252,7 @@ impl<'a> Rhs<'a> {
             }
             let (model, mode) = (&group.model, &motion.mode);
             let own = state_of(y, g);
-            let sight = self.stands(g, mode.place, t, y, &own);
+            let sight = self.stands_there(g, mode.place, t, y, &own);
             let rates = self.goes(g, mode, &sight, y, &own);
             self.parts[g] = Some(GroupRhs::new::<RADIAL>(model, mode, t, &own, &sight, &rates));
             // Forces follow below.
@@ -563,6 +568,10 @@ impl<'a> Rhs<'a> {
 
 impl<const N: usize> RightHandSide<N> for Rhs<'_> {
     type Failure = ();
+
+    fn used(&self) -> usize {
+        HEAD + EACH * self.groups.len() + self.moved().map_or(0, |_| AXIS)
+    }
 
     fn slope(&mut self, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
         let x = self.look::<false>(t, y);
