@@ -300,43 +300,23 @@ impl<'a> Bent<'a> {
     /// Newton's method for h; without a solution forces are no numbers.
     pub(super) fn solve(&mut self) {
         let n = self.h.len();
-        let scale = self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max);
-        let (mut last, mut solved) = (f64::INFINITY, false);
-        if !self.near {
-            self.h.copy_from_slice(&self.approach);
-            self.factored = false;
-        }
-        for step in 0..MOST {
-            // From what was solved last the first step goes along the tangents there.
-            if step > 0 || !self.near {
-                self.forces();
-            }
+        if self.near {
+            // From what was solved last along the tangents there.
             for i in 0..n {
                 self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
             }
-            if !self.factored && !self.factor() {
-                break;
-            }
             self.substitute();
-            let size = self.step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
-            // A largest one knows no NaN, and once kept it would stay: a trial step may stand anywhere.
-            if !self.step.iter().all(|step| step.is_finite()) {
-                break;
-            }
             self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
-            // Steps shrink at least as the last ones did: what the next one would be.
-            let next = if step > 1 { size * (size / last) } else { size };
-            if next <= SOLVED * scale || size <= NEARLY * scale && size >= 0.5 * last {
-                solved = true;
-                break;
+        } else {
+            for i in 0..n {
+                self.h[i] = self.approach[i] - self.recede[i];
             }
-            if size > last {
-                // It has gone too far: half of it back.
-                self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h += 0.5 * step);
-            }
-            self.factored = size <= SLOW * last;
-            last = size;
         }
+        let solved = self.newton() || {
+            self.factored = false;
+            self.h.copy_from_slice(&self.approach);
+            self.newton()
+        };
         self.near = solved;
         if solved {
             // Along the tangents of the last step, which leaves its square.
@@ -348,7 +328,43 @@ impl<'a> Bent<'a> {
             self.factored = false;
             self.alphas.fill(f64::NAN);
             self.normal.fill(f64::NAN);
+            self.recede.fill(0.0);
         }
+    }
+
+    /// Its steps, from h on; whether they come to an end.
+    fn newton(&mut self) -> bool {
+        let n = self.h.len();
+        let scale = self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max);
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST {
+            self.forces();
+            for i in 0..n {
+                self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
+            }
+            if !self.factored && !self.factor() {
+                return false;
+            }
+            self.substitute();
+            let size = self.step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+            // A largest one knows no NaN, and once kept it would stay: a trial step may stand anywhere.
+            if !self.step.iter().all(|step| step.is_finite()) {
+                return false;
+            }
+            self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
+            // Steps shrink at least as the last ones did: what the next one would be.
+            let next = if last.is_finite() { size * (size / last) } else { size };
+            if next <= SOLVED * scale || size <= NEARLY * scale && size >= 0.5 * last {
+                return true;
+            }
+            if size > last {
+                // It has gone too far: half of it back.
+                self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h += 0.5 * step);
+            }
+            self.factored = size <= SLOW * last;
+            last = size;
+        }
+        false
     }
 
     /// N, its slope and u at h.
@@ -455,4 +471,43 @@ pub(super) fn pressed(mut point: WedgePoint, more_n: f64, below_rad: f64) -> Wed
     point.n_bi = (point.n_bi + more_n).max(0.0);
     point.windup -= (point.rho_i + point.rho_e) * below_rad;
     point
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Bent;
+    use crate::clutch::Sharing;
+    use crate::design::Design;
+    use crate::sprags::Many;
+
+    /// Trial steps stand where there is nothing: what is sought after one is what it would have been without.
+    #[test]
+    fn a_place_without_a_solution_leaves_nothing_behind() {
+        let design =
+            Design::parse(include_str!("../../../designs/huang2017-multi-arc.toml"), "m.toml").unwrap();
+        let sharing = Sharing { seed: 1, size_within_m: 3e-6, ..Sharing::default() };
+        let many = Many::bending(design.scenario("low-6").unwrap(), &sharing).unwrap();
+        let rings = many.rings.as_ref().unwrap();
+        let stand = |bent: &mut Bent<'_>, alpha: f64| {
+            for (g, group) in many.groups.iter().enumerate() {
+                bent.place(g, group.model.curve.first_contact_rad() + alpha, Some(0), &group.model);
+            }
+            bent.solve();
+            bent.normal.clone()
+        };
+        let (mut once, mut again) = (Bent::new(rings), Bent::new(rings));
+        let expected = stand(&mut once, 0.02);
+        for nowhere in [f64::NAN, f64::INFINITY, 1e200, -1e200] {
+            stand(&mut again, 0.01);
+            stand(&mut again, nowhere);
+            for (found, expected) in stand(&mut again, 0.02).iter().zip(&expected) {
+                assert!((found / expected - 1.0).abs() < 1e-12, "{nowhere}: {found} {expected}");
+            }
+        }
+        // From near by, along the tangents, as from nothing.
+        stand(&mut again, 0.0199);
+        for (found, expected) in stand(&mut again, 0.02).iter().zip(&expected) {
+            assert!((found / expected - 1.0).abs() < 1e-12 && *expected > 100.0, "{found} {expected}");
+        }
+    }
 }

@@ -170,11 +170,6 @@ impl<'a> Rhs<'a> {
         Some(of(&bent))
     }
 
-    /// Whether the races bend.
-    pub(super) fn bends(&self) -> bool {
-        self.bent.is_some()
-    }
-
     /// How far group `g` is pressed, as an angle from first contact, rad.
     pub(super) fn pressed_rad(&self, g: usize, y: &[f64]) -> f64 {
         let touch = self.groups[g].model.curve.first_contact_rad();
