@@ -214,7 +214,8 @@ impl Shared {
 }
 
 impl<'a> Unlike<'a> {
-    /// The clutch whose curve at rest is `curve`, of sprags as `sharing` has them, engaged while the widest gap (if the axes lie apart) stands
+    /// The clutch whose curve at rest is `curve`, of sprags as `sharing` has them, engaged while the widest gap (if
+    /// the axes lie apart) stands
     /// `phase_rad` ahead of sprag 0.
     pub fn new(clutch: &Clutch, sharing: &Sharing, curve: &'a WedgeCurve, phase_rad: f64) -> Self {
         let n = clutch.sprags.count;
@@ -325,8 +326,9 @@ impl<'a> Unlike<'a> {
         rotated(axis_m, -(self.sprags[i].azimuth_rad + self.turned_rad[i]))
     }
 
-    /// How far both tracks together recede at sprag `at[i]` for a newton of normal force of sprag `at[j]`, beside the law of even sprags, by rows,
-    /// m/N: what one sprag's contacts would have to come together for the same work. For one newton of N_bi the forces on the tracks are
+    /// How far both tracks together recede at sprag `at[i]` for a newton of normal force of sprag `at[j]`, beside the
+    /// law of even sprags, by rows, m/N: what one sprag's contacts would have to come together for the same work. For
+    /// one newton of N_bi the forces on the tracks are
     /// `inner` (normal, along, in its positive sense) and `outer`. Symmetric.
     pub fn opens_m_per_n(&self, at: &[usize], inner: [f64; 2], outer: [f64; 2]) -> Vec<f64> {
         let work = |race: usize, [n, t]: [f64; 2], i: usize, j: usize| {

@@ -1,9 +1,10 @@
 //! Beyond the end: sprags go over their highest place one after another, and what then remains.
 //!
-//! Races turned on at will, round, on one axis: each sprag has the torque of its own windup, on the curve and then on the falling branch
-//! ([`crate::wedge::RollOver`]), so the clutch has sum C_1(W - lag_i) at the windup W. With sprags alike that is the branch itself. It passes
-//! its peak, falls, and what was stored comes back. Under a torque that stays, the sprag that comes to its end first goes over at once: what the
-//! others carry then follows from statics with it gone, races bending, and so on.
+//! Races turned on at will, round, on one axis: each sprag has the torque of its own windup, on the curve and then on
+//! the falling branch ([`crate::wedge::RollOver`]), so the clutch has sum C_1(W - lag_i) at the windup W. With sprags
+//! alike that is the branch itself. It passes its peak, falls, and what was stored comes back. Under a torque that
+//! stays, the sprag that comes to its end first goes over at once: what the others carry then follows from statics
+//! with it gone, races bending, and so on.
 
 use super::{Asked, Loss, NotShared, Unlike};
 use crate::wedge::{EndReason, RollOver};
@@ -37,16 +38,16 @@ pub struct Pops {
     pub peak: PopPoint,
     /// Windup at which each comes to its end, rad; `None`: it carries nothing.
     pub ends_rad: Vec<Option<f64>>,
-    /// Under the torque at which the first comes to its end: who goes over, and what the others carry; the last entry is those that carry it, or
-    /// that none do.
+    /// Under the torque at which the first comes to its end: who goes over, and what the others carry; the last entry
+    /// is those that carry it, or that none do.
     pub left: Vec<Loss>,
     /// Torque, N m, that those of the last entry carry before the next comes to its end; `None`: they do not carry it.
     pub left_nm: Option<f64>,
 }
 
 impl Unlike<'_> {
-    /// Sprag `first` comes to its end at `end_nm`, N m, for `reason`; what follows. `way`: what comes after the end of the curve. `None` where the
-    /// axes lie apart: a falling branch knows races on one axis only.
+    /// Sprag `first` comes to its end at `end_nm`, N m, for `reason`; what follows. `way`: what comes after the end
+    /// of the curve. `None` where the axes lie apart: a falling branch knows races on one axis only.
     pub fn pops(
         &self,
         first: (usize, EndReason),

@@ -3,10 +3,10 @@
 //! In: a scenario, `Sharing`. Out: [`EachSprag`]. Absent: allowables, units, the equations themselves (`dynamics`).
 //! Equations: those of [`crate::dynamics::run_many`].
 //!
-//! Every sprag has its own curve (its size), its own friction (static and kinetic in one ratio) and its own lag (its gap, or its size where a
-//! cage holds all), drawn and given as for statics. Where the
-//! axes of the races do not meet, or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the
-//! races bend under sprags unlike one another ([`Rings`]), without inertia.
+//! Every sprag has its own curve (its size), its own friction (static and kinetic in one ratio) and its own lag (its
+//! gap, or its size where a cage holds all), drawn and given as for statics. Where the axes of the races do not meet,
+//! or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the races bend
+//! under sprags unlike one another ([`Rings`]), without inertia.
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start};
 use crate::dynamics::{
@@ -104,8 +104,8 @@ pub struct EachSprag {
     pub error: Option<[f64; 2]>,
     /// Most steps and changes that a run was allowed.
     pub limits: [u64; 2],
-    /// Largest share at rest under the scene's largest torque: as `sharing` has it, between races that do not bend unevenly, and between round
-    /// concentric ones; `None` where statics does not carry it.
+    /// Largest share at rest under the scene's largest torque: as `sharing` has it, between races that do not bend
+    /// unevenly, and between round concentric ones; `None` where statics does not carry it.
     pub shares_at_rest: [Option<f64>; 3],
     /// Axes that do not meet or give way; `None`: nothing in the scene feels that.
     pub axes: Option<Axes>,
@@ -271,7 +271,9 @@ impl Many {
         Ok(Self { groups, start, group, idle, sprags, axes, rings, alike })
     }
 
-    /// The same with the way of each sprag over its highest place; `None` where that is not known: no equilibrium is found, or the axes lie apart.
+    /// The same with the way of each sprag over its highest place; `None` where that is not known: no equilibrium is
+    /// found, or the axes may lie apart. By d, at one normal force, they turn the races by d/(OA sin omega) or so
+    /// ([`AxisTurns`]), and omega passes 0 at the highest place.
     pub fn going_over(&self, clutch: &Clutch) -> Option<Self> {
         if self.axes.is_some() {
             return None;

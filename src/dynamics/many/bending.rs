@@ -14,10 +14,10 @@
 //! sum [U(alpha_i) + E(h_i) - E(D(alpha_i))] + 1/2 sum N_i M_ij N_j, E' = N: on alpha_i acts U' + (N_i - N_own) D', and energy is kept.
 //! With equal sprags u = 0 and nothing changes, to the bit.
 //!
-//! The rings have no inertia here. A ring driven at f bends by 1/(1 - (f/f_2)^2) of what it bends at rest, f_2 its lowest mode
-//! ([`crate::race::Race::lowest_mode_hz`]): what is left out is the part (f/f_2)^2 of u.
-//! Left out beside that: what u changes in OA and OB, some 1e-4 of them, and how the part T/N of a track's force changes with the load or in
-//! slip.
+//! The rings have no inertia here. A ring driven at f bends by 1/(1 - (f/f_2)^2) of what it bends at rest, f_2 its
+//! lowest mode ([`crate::race::Race::lowest_mode_hz`]): what is left out is the part (f/f_2)^2 of u. Left out beside
+//! that: what u changes in OA and OB, some 1e-4 of them, and how the part T/N of a track's force changes with the
+//! load or in slip.
 
 use super::{EACH, HEAD, SpragGroup, SpragMotion};
 use crate::dynamics::model::{Model, Place};
