@@ -137,29 +137,6 @@ fn unlike_sprags_between_races_that_bend_balance_their_energy() {
     }
 }
 
-/// However many sprags stand between races that bend, a history without changes takes as many evaluations of all as sprags alike take of one.
-#[test]
-fn sprags_between_races_that_bend_take_the_steps_of_one() {
-    for count in [12, 24, 60] {
-        let mut scene = scene("huang2017-multi-arc", "low-6");
-        scene.clutch.sprags.count = count;
-        scene.clutch.friction.static_ = 0.5;
-        lasting(&mut scene, 0.01);
-        let one = Many::new(&scene, &Sharing::default(), false).unwrap();
-        let unlike = Sharing { seed: 1, size_within_m: 1e-6, ..Sharing::default() };
-        let many = Many::bending(&scene, &unlike).unwrap();
-        assert!(many.rings.is_some() && many.groups.len() == count);
-        let [one, many] = [one, many].map(|of| of.run(&Settings::default(), 1e-9, 0));
-        let ratio = many.counters.rhs_evaluations as f64 / one.counters.rhs_evaluations as f64;
-        println!(
-            "{count}: {} evaluations, {ratio:.2} of those of one, {} changes",
-            many.counters.rhs_evaluations, many.events
-        );
-        assert_eq!((many.events, many.stop), (0, Stop::Finished));
-        assert!(ratio < 1.2, "{count}: {ratio}");
-    }
-}
-
 /// By `tests/reference/bending.py`: three sprags of which neither places nor sizes are even, shares of 0.53 to 1.32 where round races have 1. It closes
 /// each sprag between its own tracks, so what differs is u/OA, 3e-3 for the 30 um of the one pressed least.
 #[test]

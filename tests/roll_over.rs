@@ -308,49 +308,6 @@ fn too_much(part: f64, sizes_m: &[f64]) -> (sprag_design::clutch::Scenario, spra
     (scene, Sharing { given, ..Sharing::default() })
 }
 
-/// Races that bend, a torque that none of them can hold: one goes over, then those that take its share, each until it lies over and bears nothing.
-/// The last to lose contact ends the scene by name, and no figure of it is missing.
-#[test]
-fn sprags_between_races_that_bend_go_over_one_after_another_to_the_last() {
-    use sprag_design::dynamics::Stop;
-    use sprag_design::scenario::Settings;
-    use sprag_design::sprags::each_sprag;
-    for (part, sizes_m) in [
-        (0.9, vec![-180e-6, -162e-6]),
-        (1.3, vec![-180e-6]),
-        (0.7, vec![-180e-6, -162e-6, -144e-6]),
-        (0.85, vec![-60e-6]),
-    ] {
-        let (scene, sharing) = too_much(part, &sizes_m);
-        let settings = Settings { samples: 400, ..Settings::default() };
-        let found = each_sprag(&scene, &sharing, &settings).unwrap();
-        let run = &found.run;
-        let left = run.residual_j / run.through_j;
-        println!("{part} {sizes_m:?}: {:?} at {} s, {left:.1e}, {:?}", run.stop, run.t_s, found.error);
-        assert!(found.bends.is_some());
-        assert_eq!((run.stop, run.inconsistent_choices), (Stop::CurveEnd, 0));
-        assert!(left.abs() < 1e-7, "{left:e}");
-        // The smaller a sprag, the sooner it goes over and lies over.
-        let of = |i: usize| &run.courses[found.group[i].unwrap()];
-        let both = |i: usize| (of(i).over_s.unwrap(), of(i).gone_s.unwrap());
-        let mut order = vec![0];
-        order.extend((0..sizes_m.len()).map(|i| 2 + 3 * i).rev());
-        for pair in order.windows(2) {
-            let [later, sooner] = [pair[0], pair[1]].map(both);
-            assert!(sooner.0 < later.0 && sooner.1 < later.1, "{sooner:?} {later:?}");
-        }
-        let last = (0..12).map(|i| both(i).1).fold(0.0, f64::max);
-        assert_eq!(last, run.t_s);
-        // Who lies over has no force, and the others have what there is.
-        let g = found.group[2].unwrap();
-        let gone = of(2).gone_s.unwrap();
-        let after: Vec<_> = run.samples.iter().filter(|s| s.t_s > gone).collect();
-        assert!(!after.is_empty() && after.iter().all(|s| s.normal_n[g] == 0.0 && s.motions[g].gone));
-        assert!(run.samples.iter().all(|s| s.normal_n.iter().all(|n| n.is_finite())));
-        assert!(after.iter().any(|s| s.normal_n.iter().any(|n| *n > 0.0)));
-    }
-}
-
 /// Two of twelve go over for good while an overrun comes to its end and the rest takes hold: these bear the torque to the end of the scene.
 #[test]
 fn those_that_remain_carry_on_to_the_end_of_the_scene() {
