@@ -282,3 +282,71 @@ fn a_sprag_that_goes_over_in_a_scene_is_followed_and_the_others_carry_on() {
     assert_eq!(found.run.stop, Stop::Finished);
     assert!(course(3).over_s.is_some() && (0..12).filter(|i| *i != 3).all(|i| course(i).over_s.is_none()));
 }
+
+/// The single arc's clutch under a step of `part` of what it carries on its curve, `size_m` less than drawn by one sprag, and some more by others.
+fn too_much(part: f64, sizes_m: &[f64]) -> (sprag_design::clutch::Scenario, sprag_design::clutch::Sharing) {
+    use sprag_design::clutch::{GivenSprag, ScenarioKind, Sharing};
+    let design = Design::parse(SINGLE, "single.toml").unwrap();
+    let mut scene = design.scenario("low-6").unwrap().clone();
+    (scene.clutch.friction.static_, scene.clutch.friction.kinetic) = (1.5, 1.4);
+    let end_nm = scene.clutch.curve().unwrap().end_torque_nm();
+    scene.kind = ScenarioKind::Transient {
+        preload_nm: 0.1 * end_nm,
+        torque_step_nm: part * end_nm,
+        step_time_s: 0.001,
+        abutment_stiffness_nm_per_rad: 5e4,
+        duration_s: 0.02,
+        speed_rad_s: 0.0,
+        overrun_rad_s: 0.0,
+    };
+    let given = |(i, size_m): (usize, &f64)| GivenSprag {
+        index: 2 + 3 * i,
+        size_m: Some(*size_m),
+        ..GivenSprag::default()
+    };
+    let given = sizes_m.iter().enumerate().map(given).collect();
+    (scene, Sharing { given, ..Sharing::default() })
+}
+
+/// Two of twelve go over for good while an overrun comes to its end and the rest takes hold: these bear the torque to the end of the scene.
+#[test]
+fn those_that_remain_carry_on_to_the_end_of_the_scene() {
+    use sprag_design::clutch::ScenarioKind;
+    use sprag_design::dynamics::Stop;
+    use sprag_design::scenario::Settings;
+    use sprag_design::sprags::Many;
+    let (mut scene, sharing) = too_much(0.9, &[-180e-6, -162e-6]);
+    let ScenarioKind::Transient { preload_nm, overrun_rad_s, .. } = &mut scene.kind else { panic!() };
+    (*preload_nm, *overrun_rad_s) = (0.0, 10.0);
+    let many = Many::bending(&scene, &sharing).unwrap();
+    let settings = Settings::default();
+    assert_eq!(many.run(&settings, 1e-8, 0).stop, Stop::CurveEnd);
+    let over = many.going_over(&scene.clutch).unwrap();
+    let run = over.run(&settings, 1e-9, 0);
+    let gone = run.courses.iter().filter(|c| c.gone_s.is_some()).count();
+    let left = run.residual_j / run.through_j;
+    println!("{:?}, {gone} gone, {left:.1e}", run.stop);
+    assert_eq!((run.stop, run.inconsistent_choices), (Stop::Finished, 0));
+    assert!(gone > 0 && gone < 12 && left.abs() < 1e-7, "{gone} {left:e}");
+}
+
+/// The way over is one of races on one axis. Where theirs may move the scene ends where the first sprag's curve does, by name, and with all figures.
+#[test]
+fn between_axes_that_may_move_a_scene_ends_where_the_curve_does() {
+    use sprag_design::dynamics::Stop;
+    use sprag_design::scenario::Settings;
+    use sprag_design::sprags::each_sprag;
+    let (scene, mut sharing) = too_much(0.9, &[-60e-6]);
+    sharing.stiffness_n_per_m = Some(2e8);
+    sharing.mass_kg = Some(0.5);
+    let found = each_sprag(&scene, &sharing, &Settings::default()).unwrap();
+    let run = &found.run;
+    let left = run.residual_j / run.through_j;
+    println!("{:?} of {:?} at {} s, {left:.1e}", run.stop, run.at_group, run.t_s);
+    assert!(found.axes.is_some());
+    assert_eq!((run.stop, run.at_group), (Stop::CurveEnd, found.group[2]));
+    assert!(
+        run.courses.iter().all(|c| c.over_s.is_none() && c.gone_s.is_none() && c.normal_max_n.is_finite())
+    );
+    assert!(run.t_s > 0.001 && run.t_s < 0.02 && left.abs() < 1e-6, "{left:e}");
+}

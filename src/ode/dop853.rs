@@ -38,13 +38,18 @@ const LOOK_OF: [usize; 12] = [0, 0, 0, 1, 0, 3, 2, 0, 0, 4, 5, 0];
 
 /// State at stage `STAGE`: y + h sum_j a_j k_j, unrolled, without the a_j that are zero.
 #[inline(always)]
-fn reached<const STAGE: usize, const N: usize>(y: &[f64; N], k: &[[f64; N]; 12], h: f64) -> [f64; N] {
+fn reached<const STAGE: usize, const N: usize>(
+    y: &[f64; N],
+    k: &[[f64; N]; 12],
+    h: f64,
+    used: usize,
+) -> [f64; N] {
     let mut z = *y;
     for j in 0..STAGE {
         let a = A[STAGE - 1][j];
         if a != 0.0 {
             let ha = h * a;
-            for i in 0..N {
+            for i in 0..used.min(N) {
                 z[i] += ha * k[j][i];
             }
         }
@@ -60,6 +65,7 @@ const AIM: f64 = 0.15;
 pub struct Dense<const N: usize> {
     t: f64,
     h: f64,
+    used: usize,
     coefficients: [[f64; N]; 8],
 }
 
@@ -86,21 +92,22 @@ impl<const N: usize> Step<N> {
         most: f64,
         counters: &mut Counters,
     ) -> Result<(), R::Failure> {
+        let used = rhs.used().min(N);
         let k = &mut self.stages;
         k[0] = *slope0;
         for stage in 1..12 {
             let z = match stage {
-                1 => reached::<1, N>(y, k, h),
-                2 => reached::<2, N>(y, k, h),
-                3 => reached::<3, N>(y, k, h),
-                4 => reached::<4, N>(y, k, h),
-                5 => reached::<5, N>(y, k, h),
-                6 => reached::<6, N>(y, k, h),
-                7 => reached::<7, N>(y, k, h),
-                8 => reached::<8, N>(y, k, h),
-                9 => reached::<9, N>(y, k, h),
-                10 => reached::<10, N>(y, k, h),
-                _ => reached::<11, N>(y, k, h),
+                1 => reached::<1, N>(y, k, h, used),
+                2 => reached::<2, N>(y, k, h, used),
+                3 => reached::<3, N>(y, k, h, used),
+                4 => reached::<4, N>(y, k, h, used),
+                5 => reached::<5, N>(y, k, h, used),
+                6 => reached::<6, N>(y, k, h, used),
+                7 => reached::<7, N>(y, k, h, used),
+                8 => reached::<8, N>(y, k, h, used),
+                9 => reached::<9, N>(y, k, h, used),
+                10 => reached::<10, N>(y, k, h, used),
+                _ => reached::<11, N>(y, k, h, used),
             };
             let at = t + C[stage] * h;
             k[stage] = match LOOK_OF[stage] {
@@ -112,12 +119,12 @@ impl<const N: usize> Step<N> {
         let (mut err5, mut err3) = (0.0, 0.0);
         let (mut increments, mut fifths) = ([0.0; N], [0.0; N]);
         for (j, k) in k.iter().enumerate().filter(|(j, _)| B[*j] != 0.0) {
-            for i in 0..N {
+            for i in 0..used {
                 increments[i] += B[j] * k[i];
                 fifths[i] += E[j] * k[i];
             }
         }
-        for i in 0..N {
+        for i in 0..used {
             let (increment, e5) = (increments[i], fifths[i]);
             y1[i] += h * increment;
             let e3 = increment - B_HAT[0] * k[0][i] - B_HAT[1] * k[8][i] - B_HAT[2] * k[11][i];
@@ -169,33 +176,36 @@ impl<const N: usize> Step<N> {
         rhs: &mut R,
         counters: &mut Counters,
     ) -> Result<Dense<N>, R::Failure> {
+        let used = rhs.used().min(N);
         let mut more = [self.slope1; 4];
         for extra in 1..4 {
             let mut z = self.y0;
             let known = self.stages.iter().chain(&more);
             for (k, &a) in known.zip(A[11 + extra]).filter(|(_, a)| **a != 0.0) {
                 let ha = self.h * a;
-                for i in 0..N {
+                for i in 0..used {
                     z[i] += ha * k[i];
                 }
             }
             more[extra] = rhs.slope(self.t + C[12 + extra] * self.h, &z)?;
         }
         counters.rhs_evaluations += 3;
-        let difference: [f64; N] = std::array::from_fn(|i| self.y1[i] - self.y0[i]);
-        let bulge: [f64; N] = std::array::from_fn(|i| self.h * self.stages[0][i] - difference[i]);
-        let end = std::array::from_fn(|i| difference[i] - self.h * self.slope1[i] - bulge[i]);
-        let zero = [0.0; N];
-        let mut c = [self.y0, difference, bulge, end, zero, zero, zero, zero];
+        let mut c = [[0.0; N]; 8];
+        for i in 0..used {
+            c[0][i] = self.y0[i];
+            c[1][i] = self.y1[i] - self.y0[i];
+            c[2][i] = self.h * self.stages[0][i] - c[1][i];
+            c[3][i] = c[1][i] - self.h * self.slope1[i] - c[2][i];
+        }
         for (c, d) in c[4..].iter_mut().zip(&D) {
             for (weight, k) in d.iter().zip(self.stages.iter().chain(&more)).filter(|(d, _)| **d != 0.0) {
                 let weight = self.h * weight;
-                for i in 0..N {
+                for i in 0..used {
                     c[i] += weight * k[i];
                 }
             }
         }
-        Ok(Dense { t: self.t, h: self.h, coefficients: c })
+        Ok(Dense { t: self.t, h: self.h, used, coefficients: c })
     }
 }
 
@@ -211,7 +221,7 @@ impl<const N: usize> Dense<N> {
         let s1 = 1.0 - s;
         let c = &self.coefficients;
         let mut y = [0.0; N];
-        for i in 0..N {
+        for i in 0..self.used.min(N) {
             let inner = c[4][i] + s * (c[5][i] + s1 * (c[6][i] + s * c[7][i]));
             y[i] = c[0][i] + s * (c[1][i] + s1 * (c[2][i] + s * (c[3][i] + s1 * inner)));
         }

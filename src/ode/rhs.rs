@@ -5,6 +5,12 @@ pub trait RightHandSide<const N: usize> {
     /// Why f could not be had.
     type Failure;
 
+    /// How many components there are; y and f are 0 from there on.
+    #[inline(always)]
+    fn used(&self) -> usize {
+        N
+    }
+
     /// f(t, y).
     ///
     /// # Errors

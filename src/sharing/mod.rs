@@ -206,8 +206,8 @@ impl Shared {
 }
 
 impl<'a> Unlike<'a> {
-    /// The clutch whose curve at rest is `curve`, of sprags as `sharing` has them, engaged while the widest gap (if the
-    /// axes lie apart) stands
+    /// The clutch whose curve at rest is `curve`, of sprags as `sharing` has them, engaged while the widest gap (if
+    /// the axes lie apart) stands
     /// `phase_rad` ahead of sprag 0.
     pub fn new(clutch: &Clutch, sharing: &Sharing, curve: &'a WedgeCurve, phase_rad: f64) -> Self {
         let n = clutch.sprags.count;

@@ -1,10 +1,10 @@
 //! Beyond the end: sprags go over their highest place one after another, and what then remains.
 //!
-//! Races turned on at will, round, on one axis: each sprag has the torque of its own windup, on the curve and then on the falling branch
-//! ([`crate::wedge::RollOver`]), so the clutch has sum C_1(W - lag_i) at the windup W. With sprags alike that is the
-//! branch itself. It passes its peak, falls, and what was stored comes back. Under a torque that stays, the sprag that
-//! comes to its end first goes over at once: what the others carry then follows from statics with it gone, races
-//! bending, and so on.
+//! Races turned on at will, round, on one axis: each sprag has the torque of its own windup, on the curve and then on
+//! the falling branch ([`crate::wedge::RollOver`]), so the clutch has sum C_1(W - lag_i) at the windup W. With sprags
+//! alike that is the branch itself. It passes its peak, falls, and what was stored comes back. Under a torque that
+//! stays, the sprag that comes to its end first goes over at once: what the others carry then follows from statics
+//! with it gone, races bending, and so on.
 
 use super::{Asked, Loss, NotShared, Unlike};
 use crate::wedge::{EndReason, RollOver};
@@ -46,8 +46,8 @@ pub struct Pops {
 }
 
 impl Unlike<'_> {
-    /// Sprag `first` comes to its end at `end_nm`, N m, for `reason`; what follows. `way`: what comes after the end of
-    /// the curve. `None` where the axes lie apart: a falling branch knows races on one axis only.
+    /// Sprag `first` comes to its end at `end_nm`, N m, for `reason`; what follows. `way`: what comes after the end
+    /// of the curve. `None` where the axes lie apart: a falling branch knows races on one axis only.
     pub fn pops(
         &self,
         first: (usize, EndReason),

@@ -4,9 +4,9 @@
 //! Equations: those of [`crate::dynamics::run_many`].
 //!
 //! Every sprag has its own curve (its size), its own friction (static and kinetic in one ratio) and its own lag (its
-//! gap, or its size where a cage holds all), drawn and given as for statics. Where the
-//! axes of the races do not meet, or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the
-//! races bend under sprags unlike one another ([`Rings`]), without inertia.
+//! gap, or its size where a cage holds all), drawn and given as for statics. Where the axes of the races do not meet,
+//! or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the races bend
+//! under sprags unlike one another ([`Rings`]), without inertia.
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start};
 use crate::dynamics::{
@@ -257,7 +257,8 @@ impl Many {
     }
 
     /// The same with the way of each sprag over its highest place; `None` where that is not known: no equilibrium is
-    /// found, or the axes lie apart.
+    /// found, or the axes may lie apart. By d, at one normal force, they turn the races by d/(OA sin omega) or so
+    /// ([`AxisTurns`]), and omega passes 0 at the highest place.
     pub fn going_over(&self, clutch: &Clutch) -> Option<Self> {
         if self.axes.is_some() {
             return None;

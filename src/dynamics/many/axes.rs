@@ -287,8 +287,8 @@ impl SpragGroup {
 }
 
 impl SeenAxes {
-    /// What w_A' and w_B' have without second rates and beside rho' alpha'^2 of the curve and G, rad/s^2; `rates` as of the sprag, `races` those of the
-    /// races themselves.
+    /// What w_A' and w_B' have without second rates and beside rho' alpha'^2 of the curve and G, rad/s^2; `rates` as
+    /// of the sprag, `races` those of the races themselves.
     fn bent(&self, rates: &[f64; 4], races: [f64; 2]) -> [f64; 2] {
         let [da, dp, ..] = *rates;
         let turning = self.turned_by[0] * races[0] + self.turned_by[1] * races[1] + self.turned_by[2];

@@ -14,12 +14,12 @@
 //! sum [U(alpha_i) + E(h_i) - E(D(alpha_i))] + 1/2 sum N_i M_ij N_j, E' = N: on alpha_i acts U' + (N_i - N_own) D', and energy is kept.
 //! With equal sprags u = 0 and nothing changes, to the bit.
 //!
-//! The rings have no inertia here. A ring driven at f bends by 1/(1 - (f/f_2)^2) of what it bends at rest, f_2 its lowest mode
-//! ([`crate::race::Race::lowest_mode_hz`]): what is left out is the part (f/f_2)^2 of u.
-//! Left out beside that: what u changes in OA and OB, some 1e-4 of them, and how the part T/N of a track's force changes with the load or in
-//! slip.
+//! The rings have no inertia here. A ring driven at f bends by 1/(1 - (f/f_2)^2) of what it bends at rest, f_2 its
+//! lowest mode ([`crate::race::Race::lowest_mode_hz`]): what is left out is the part (f/f_2)^2 of u. Left out beside
+//! that: what u changes in OA and OB, some 1e-4 of them, and how the part T/N of a track's force changes with the
+//! load or in slip.
 
-use super::{SpragGroup, SpragMotion, state_of};
+use super::{EACH, HEAD, SpragGroup, SpragMotion};
 use crate::dynamics::model::{Model, Place};
 use crate::numeric::panels::Panels;
 use crate::numeric::{quadrature, root};
@@ -227,7 +227,8 @@ pub(super) struct Bent<'a> {
     alphas: Vec<f64>,
     /// Whether each carries where pressed, and its arc.
     seats: Vec<Option<usize>>,
-    solved: bool,
+    /// Whether what was solved last is what the sprags have moved on from, on the same seats.
+    near: bool,
     /// D(alpha), m; N(D), N.
     approach: Vec<f64>,
     own_n: Vec<f64>,
@@ -252,7 +253,7 @@ impl<'a> Bent<'a> {
             rings,
             alphas: vec![f64::NAN; n],
             seats: vec![None; n],
-            solved: false,
+            near: false,
             approach: zeros(),
             own_n: zeros(),
             h: zeros(),
@@ -275,7 +276,7 @@ impl<'a> Bent<'a> {
                 Place::Arc(k) if !motion.waits => Some(k),
                 _ => None,
             };
-            moved |= self.place(g, state_of(y, g)[0], seat, &groups[g].model);
+            moved |= self.place(g, y[HEAD + EACH * g], seat, &groups[g].model);
         }
         if moved {
             self.solve();
@@ -289,38 +290,72 @@ impl<'a> Bent<'a> {
         }
         let of = &self.rings.approaches[g];
         let k = seat.unwrap_or_else(|| model.curve.arc_at(alpha).min(of.by_alpha.len() - 1));
-        let before = self.approach[g];
+        self.near &= self.seats[g] == seat;
         (self.alphas[g], self.seats[g]) = (alpha, seat);
         self.approach[g] = of.at(k, alpha);
         self.own_n[g] = of.normal(self.approach[g]).0;
-        // What it has gone is the first guess of how much further it is pressed.
-        self.h[g] = if self.solved { self.h[g] + (self.approach[g] - before) } else { self.approach[g] };
         true
     }
 
     /// Newton's method for h; without a solution forces are no numbers.
     pub(super) fn solve(&mut self) {
         let n = self.h.len();
+        if self.near {
+            // From what was solved last along the tangents there.
+            for i in 0..n {
+                self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
+            }
+            self.substitute();
+            self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
+        } else {
+            for i in 0..n {
+                self.h[i] = self.approach[i] - self.recede[i];
+            }
+        }
+        let solved = self.newton() || {
+            self.factored = false;
+            self.h.copy_from_slice(&self.approach);
+            self.newton()
+        };
+        self.near = solved;
+        if solved {
+            // Along the tangents of the last step, which leaves its square.
+            for i in 0..n {
+                self.normal[i] -= self.slopes[i] * self.step[i];
+                self.recede[i] = self.approach[i] - self.h[i];
+            }
+        } else {
+            self.factored = false;
+            self.alphas.fill(f64::NAN);
+            self.normal.fill(f64::NAN);
+            self.recede.fill(0.0);
+        }
+    }
+
+    /// Its steps, from h on; whether they come to an end.
+    fn newton(&mut self) -> bool {
+        let n = self.h.len();
         let scale = self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max);
         let mut last = f64::INFINITY;
-        self.solved = false;
         for _ in 0..MOST {
             self.forces();
             for i in 0..n {
                 self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
             }
             if !self.factored && !self.factor() {
-                break;
+                return false;
             }
             self.substitute();
             let size = self.step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
-            self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
-            if size <= SOLVED * scale || size <= NEARLY * scale && size >= 0.5 * last {
-                self.solved = true;
-                break;
+            // A largest one knows no NaN, and once kept it would stay: a trial step may stand anywhere.
+            if !self.step.iter().all(|step| step.is_finite()) {
+                return false;
             }
-            if size.is_nan() {
-                break;
+            self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
+            // Steps shrink at least as the last ones did: what the next one would be.
+            let next = if last.is_finite() { size * (size / last) } else { size };
+            if next <= SOLVED * scale || size <= NEARLY * scale && size >= 0.5 * last {
+                return true;
             }
             if size > last {
                 // It has gone too far: half of it back.
@@ -329,16 +364,7 @@ impl<'a> Bent<'a> {
             self.factored = size <= SLOW * last;
             last = size;
         }
-        if self.solved {
-            // The last step moves N by parts in 1e14, u by less.
-            for (normal, (slope, step)) in self.normal.iter_mut().zip(self.slopes.iter().zip(&self.step)) {
-                *normal -= slope * step;
-            }
-        } else {
-            self.factored = false;
-            self.alphas.fill(f64::NAN);
-            self.normal.fill(f64::NAN);
-        }
+        false
     }
 
     /// N, its slope and u at h.
@@ -350,8 +376,10 @@ impl<'a> Bent<'a> {
                 None => (0.0, 0.0),
             };
         }
-        for (recede, row) in self.recede.iter_mut().zip(self.rings.opens_m_per_n.chunks(n)) {
-            *recede = row.iter().zip(&self.normal).map(|(m, n)| m * n).sum();
+        // By columns, which are the rows.
+        self.recede.fill(0.0);
+        for (normal, row) in self.normal.iter().zip(self.rings.opens_m_per_n.chunks(n)) {
+            self.recede.iter_mut().zip(row).for_each(|(recede, m)| *recede += m * normal);
         }
     }
 
@@ -382,12 +410,12 @@ impl<'a> Bent<'a> {
                     self.factors.swap(k * n + j, best * n + j);
                 }
             }
-            for i in k + 1..n {
-                let part = self.factors[i * n + k] / pivot;
-                self.factors[i * n + k] = part;
-                for j in k + 1..n {
-                    self.factors[i * n + j] -= part * self.factors[k * n + j];
-                }
+            let (above, below) = self.factors.split_at_mut((k + 1) * n);
+            for row in below.chunks_mut(n) {
+                let part = row[k] / pivot;
+                row[k] = part;
+                let from = &above[k * n + k + 1..];
+                row[k + 1..].iter_mut().zip(from).for_each(|(f, of)| *f -= part * of);
             }
         }
         self.factored = true;
@@ -443,4 +471,43 @@ pub(super) fn pressed(mut point: WedgePoint, more_n: f64, below_rad: f64) -> Wed
     point.n_bi = (point.n_bi + more_n).max(0.0);
     point.windup -= (point.rho_i + point.rho_e) * below_rad;
     point
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Bent;
+    use crate::clutch::Sharing;
+    use crate::design::Design;
+    use crate::sprags::Many;
+
+    /// Trial steps stand where there is nothing: what is sought after one is what it would have been without.
+    #[test]
+    fn a_place_without_a_solution_leaves_nothing_behind() {
+        let design =
+            Design::parse(include_str!("../../../designs/huang2017-multi-arc.toml"), "m.toml").unwrap();
+        let sharing = Sharing { seed: 1, size_within_m: 3e-6, ..Sharing::default() };
+        let many = Many::bending(design.scenario("low-6").unwrap(), &sharing).unwrap();
+        let rings = many.rings.as_ref().unwrap();
+        let stand = |bent: &mut Bent<'_>, alpha: f64| {
+            for (g, group) in many.groups.iter().enumerate() {
+                bent.place(g, group.model.curve.first_contact_rad() + alpha, Some(0), &group.model);
+            }
+            bent.solve();
+            bent.normal.clone()
+        };
+        let (mut once, mut again) = (Bent::new(rings), Bent::new(rings));
+        let expected = stand(&mut once, 0.02);
+        for nowhere in [f64::NAN, f64::INFINITY, 1e200, -1e200] {
+            stand(&mut again, 0.01);
+            stand(&mut again, nowhere);
+            for (found, expected) in stand(&mut again, 0.02).iter().zip(&expected) {
+                assert!((found / expected - 1.0).abs() < 1e-12, "{nowhere}: {found} {expected}");
+            }
+        }
+        // From near by, along the tangents, as from nothing.
+        stand(&mut again, 0.0199);
+        for (found, expected) in stand(&mut again, 0.02).iter().zip(&expected) {
+            assert!((found / expected - 1.0).abs() < 1e-12 && *expected > 100.0, "{found} {expected}");
+        }
+    }
 }

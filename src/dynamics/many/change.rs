@@ -129,10 +129,12 @@ impl<const N: usize> Going<'_, N> {
                 Some(Place::Arc(k + 1))
             }
             (_, Place::Arc(_)) => {
-                if self.groups[g].over == Some(OverEnd::ContactLost)
-                    && self.rhs.motions.iter().filter(|m| !m.waits).count() > 1
-                {
-                    return None;
+                if self.groups[g].over == Some(OverEnd::ContactLost) {
+                    if (0..self.groups.len()).any(|other| other != g && !self.rhs.motions[other].gone) {
+                        return None;
+                    }
+                    // The last of all.
+                    self.out.courses[g].gone_s = Some(self.t_s);
                 }
                 self.stop(Stop::CurveEnd, Some(g));
                 None

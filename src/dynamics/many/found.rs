@@ -4,8 +4,8 @@ use super::SpragMotion;
 use crate::dynamics::run::Stop;
 use crate::ode::step::Counters;
 
-/// The first slip of a sprag after it has caught under N_bi of [`crate::dynamics::Model::loaded_n`] or more: where it begins, or where one that began
-/// unloaded comes to that load.
+/// The first slip of a sprag after it has caught under N_bi of [`crate::dynamics::Model::loaded_n`] or more: where it
+/// begins, or where one that began unloaded comes to that load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstSlip {
     /// When, s.
@@ -58,7 +58,8 @@ pub struct ManySample {
     pub tan: Vec<[f64; 2]>,
     /// What each does.
     pub motions: Vec<SpragMotion>,
-    /// Axis of the inner race against that of the outer, in the frame of the mean speed: towards sprag 0's even place and a quarter turn ahead, m.
+    /// Axis of the inner race against that of the outer, in the frame of the mean speed: towards sprag 0's even place
+    /// and a quarter turn ahead, m.
     pub axis_m: [f64; 2],
     /// What the bearings of the axes hold, N; 0 where these meet and are held.
     pub bearing_n: f64,

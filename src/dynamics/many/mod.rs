@@ -24,19 +24,21 @@
 //!
 //! Where the races bend unevenly, what presses a sprag follows from where all of them stand (`bending`).
 //!
-//! State: theta_bi, theta_be, their rates, five works, then of each group alpha, phi, their rates and the slips at A and B; last the shift of
-//! the axis and its rate, where there are bearings.
+//! State: theta_bi, theta_be, their rates, five works, then of each group alpha, phi, their rates and the slips at A
+//! and B; last the shift of the axis and its rate, where there are bearings.
 
 mod axes;
 mod bending;
 mod change;
 mod choose;
+mod energy;
 mod found;
 mod jump;
 mod locate;
 mod rhs;
 mod run;
 mod start;
+mod touch;
 mod watch;
 
 pub use axes::{Axes, AxisBearing, OffCentre, StaysWith};

@@ -1,6 +1,6 @@
 //! The right-hand side of all sprags: forces of each, accelerations of the races under their sum.
 
-use super::axes::{AXIS, Axes, SeenAxes, Sight, rotated};
+use super::axes::{AXIS, Axes, SeenAxes, Sight};
 use super::bending::{Bent, Rings};
 use super::{EACH, FIRST_WORK, HEAD, PROBES, SpragGroup, SpragMotion, state_of};
 use crate::dynamics::choose::EXCESS;
@@ -152,23 +152,22 @@ impl<'a> Rhs<'a> {
 
     /// Where group `g` stands in its place, `own` its state in y.
     pub(super) fn stands(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
-        let more_n = match place {
-            Place::Arc(_) => self.bent(y, |bent| bent.more_n(g)),
-            _ => None,
-        };
+        self.bent(y, |_| ());
+        self.stands_there(g, place, t, y, own)
+    }
+
+    /// The same where the races are bent as `y` has them already.
+    fn stands_there(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
+        let bent = self.bent.as_ref().filter(|_| matches!(place, Place::Arc(_)));
+        let more_n = bent.and_then(|bent| Some(bent.try_borrow().ok()?.more_n(g)));
         self.groups[g].sight(self.axes, self.groups.len(), place, t, y, own, more_n)
     }
 
     /// `of` the bent races where the sprags stand as `y` has them; `None`: they do not bend.
-    fn bent<T>(&self, y: &[f64], of: impl FnOnce(&Bent<'a>) -> T) -> Option<T> {
+    pub(super) fn bent<T>(&self, y: &[f64], of: impl FnOnce(&Bent<'a>) -> T) -> Option<T> {
         let mut bent = self.bent.as_ref()?.try_borrow_mut().ok()?;
         bent.stand(self.groups, &self.motions, y);
         Some(of(&bent))
-    }
-
-    /// Whether the races bend.
-    pub(super) fn bends(&self) -> bool {
-        self.bent.is_some()
     }
 
     /// How far group `g` is pressed, as an angle from first contact, rad.
@@ -240,6 +239,7 @@ impl<'a> Rhs<'a> {
     pub(super) fn look<const RADIAL: bool>(&mut self, t: f64, y: &[f64]) -> Vector4<f64> {
         let races = &self.groups[0].model;
         let f = self.torques_nm(t, y);
+        self.bent(y, |_| ());
         for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
             (self.parts[g], self.seen[g]) = (None, None);
             if motion.waits {
@@ -247,7 +247,7 @@ impl<'a> Rhs<'a> {
             }
             let (model, mode) = (&group.model, &motion.mode);
             let own = state_of(y, g);
-            let sight = self.stands(g, mode.place, t, y, &own);
+            let sight = self.stands_there(g, mode.place, t, y, &own);
             let rates = self.goes(g, mode, &sight, y, &own);
             self.parts[g] = Some(GroupRhs::new::<RADIAL>(model, mode, t, &own, &sight, &rates));
             // Forces follow below.
@@ -377,39 +377,6 @@ impl<'a> Rhs<'a> {
         (rates[0], forces)
     }
 
-    /// How much more than at the start the races must have wound up until group `g` touches, for where the axis is now, rad.
-    fn touches_later_rad(&self, g: usize, t: f64, y: &[f64]) -> f64 {
-        self.moved_touch_rad(g, t, y) + self.bent_touch_rad(g, y)
-    }
-
-    /// What bent races are to that, rad.
-    fn bent_touch_rad(&self, g: usize, y: &[f64]) -> f64 {
-        if self.bent.is_none() {
-            return 0.0;
-        }
-        let (curve, alpha) = (&self.groups[g].model.curve, self.touch_rad(g, y));
-        let below = curve.first_contact_rad() - alpha;
-        if below < 0.0 {
-            return curve.windup_rad(alpha);
-        }
-        let p = curve.in_arc(0, alpha);
-        -(p.rho_i + p.rho_e) * below
-    }
-
-    /// What the place of the axis is to that, rad.
-    fn moved_touch_rad(&self, g: usize, t: f64, y: &[f64]) -> f64 {
-        let (Some(axes), Some(at)) = (self.axes, &self.groups[g].off_centre) else { return 0.0 };
-        let touch = self.groups[g].model.curve.first_contact_rad();
-        let costs = |axis: [f64; 2], phi: f64| {
-            let turns = at.turns.at(0, touch, rotated(axis, -(at.azimuth_rad + phi)));
-            turns[0].value + turns[1].value
-        };
-        let offset = axes.offset_m(t, [y[0], y[1]]);
-        let shift = axes.shift(y, self.groups.len())[0];
-        // It has been turned along with the outer race.
-        costs([offset[0] + shift[0], offset[1] + shift[1]], y[1]) - costs(axes.offset_m(0.0, [0.0; 2]), 0.0)
-    }
-
     /// What is seen of group `g` after [`Self::look`] at y.
     pub(super) fn probe(&self, g: usize, t: f64, y: &[f64]) -> Probe {
         let motion = &self.motions[g];
@@ -517,52 +484,14 @@ impl<'a> Rhs<'a> {
         let finite = out.iter().map(|v| 0.0 * v).sum::<f64>() == 0.0;
         if finite { Ok(out) } else { Err(()) }
     }
-
-    /// Rolling rates put in exactly, and the energy in motion and stored but for the contacts, J.
-    pub(super) fn energy_j(&self, t: f64, y: &[f64]) -> f64 {
-        let races = &self.groups[0].model;
-        let own = |g: usize| self.energy_of_j(g, t, y);
-        let axis = self.axes.map_or(0.0, |axes| axes.energy_j(axes.shift(y, self.groups.len())).0);
-        let rings = self.bent(y, Bent::rings_j).unwrap_or(0.0);
-        (0..self.groups.len()).map(own).sum::<f64>()
-            + 0.5 * races.inner_inertia_kg_m2 * y[2] * y[2]
-            + 0.5 * races.outer_inertia_kg_m2 * y[3] * y[3]
-            + 0.5 * races.loads.abutment_nm_per_rad * y[1] * y[1]
-            + axis
-            + rings
-    }
-
-    /// Energy of group `g` from first contact on, J; none while it waits.
-    pub(super) fn energy_of_j(&self, g: usize, t: f64, y: &[f64]) -> f64 {
-        let (model, motion) = (&self.groups[g].model, &self.motions[g]);
-        if motion.waits {
-            return 0.0;
-        }
-        let own = state_of(y, g);
-        let sight = self.stands(g, motion.mode.place, t, y, &own);
-        let [da, dp, ..] = self.goes(g, &motion.mode, &sight, y, &own);
-        let mut alone = own;
-        alone[3] = 0.0;
-        let moves = model.energy_without_wedge(&sight.point, &[da, dp, 0.0, 0.0], &alone);
-        let touch = model.curve.first_contact_rad();
-        let Some(beside) = self.bent(y, |bent| bent.beside_j(g)) else {
-            return moves + model.wedge_energy_j(touch, own[0]);
-        };
-        // A sprag may be open beyond first contact, and pressed before it.
-        moves
-            + match motion.mode.place {
-                Place::Open => model.open_energy_j(touch, own[0]),
-                _ if own[0] < touch => {
-                    let p = model.curve.in_arc(0, touch);
-                    model.count * (p.t_static * p.oa * (p.rho_i + p.rho_e) * (own[0] - touch) + beside)
-                }
-                _ => model.wedge_energy_j(touch, own[0]) + model.count * beside,
-            }
-    }
 }
 
 impl<const N: usize> RightHandSide<N> for Rhs<'_> {
     type Failure = ();
+
+    fn used(&self) -> usize {
+        HEAD + EACH * self.groups.len() + self.moved().map_or(0, |_| AXIS)
+    }
 
     fn slope(&mut self, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
         let x = self.look::<false>(t, y);

@@ -1,16 +1,35 @@
 //! What a run of many sprags remembers of each step: located extremes and samples.
 
+use super::PROBES;
 use super::found::ManySample;
 use super::run::Going;
-use super::{PROBES, state_of};
-use crate::dynamics::events::N_BI;
-use crate::dynamics::model::Place;
-use crate::dynamics::probes::Grid;
-use crate::dynamics::watch::highest;
+use crate::dynamics::events::{N_BI, Probe};
+use crate::dynamics::probes::{Grid, parabola};
 use crate::ode::dop853::{self, Dense, Step};
 
 /// Of a figure that is a record, as a part of the tolerance: how nearly its top is found.
 const FINE: f64 = 1e-3;
+/// How far beside a guess of a top is looked first, as a part of the bracket.
+const NEAR: f64 = 0.1;
+/// Looks at most for one top.
+const CLIMBS: usize = 20;
+/// Nearer than this, as a part of a step, two looks are one.
+const ENOUGH: f64 = 1e-6;
+
+/// Where in a step all sprags have been looked at for the top of one figure: those of the others lie near by.
+struct Looks<const N: usize> {
+    dense: Option<Dense<N>>,
+    /// Ascending, as parts of the step.
+    at: Vec<f64>,
+    seen: Vec<Vec<Probe>>,
+    bearing_n: Vec<f64>,
+}
+
+impl<const N: usize> Default for Looks<N> {
+    fn default() -> Self {
+        Self { dense: None, at: Vec::new(), seen: Vec::new(), bearing_n: Vec::new() }
+    }
+}
 
 /// A figure of one group whose largest value is kept.
 #[derive(Clone, Copy)]
@@ -28,7 +47,7 @@ enum Watched {
 impl<const N: usize> Going<'_, N> {
     /// Extremes of all groups in the step.
     pub(super) fn watch(&mut self, step: &Step<N>) -> Result<(), ()> {
-        let mut dense = None;
+        let mut looks = Looks::default();
         for g in 0..self.groups.len() {
             if self.rhs.motions[g].waits {
                 continue;
@@ -41,8 +60,10 @@ impl<const N: usize> Going<'_, N> {
                     Watched::Share => course.share,
                     Watched::Bearing => continue,
                 };
-                let values: [f64; PROBES] = std::array::from_fn(|j| self.figure_at_probe(g, figure, j));
-                let found = self.most(step, &mut dense, g, figure, &values, best)?;
+                let (probes, held) = (&self.rhs.probes, &self.rhs.bearing_probes_n);
+                let values: [f64; PROBES] =
+                    std::array::from_fn(|j| self.figure(g, figure, &probes[j], held[j]));
+                let found = self.most(step, &mut looks, g, figure, &values, best)?;
                 let Some((part, most)) = found else { continue };
                 let (t, course) = (step.t + part * step.h, &mut self.out.courses[g]);
                 match figure {
@@ -56,7 +77,7 @@ impl<const N: usize> Going<'_, N> {
         if self.rhs.axes.is_some() {
             let values = self.rhs.bearing_probes_n;
             let best = self.out.bearing_max_n;
-            if let Some((part, most)) = self.most(step, &mut dense, 0, Watched::Bearing, &values, best)? {
+            if let Some((part, most)) = self.most(step, &mut looks, 0, Watched::Bearing, &values, best)? {
                 (self.out.bearing_max_n, self.out.bearing_max_s) = (most, step.t + part * step.h);
             }
             for y in [&step.y0, &step.y1] {
@@ -71,7 +92,7 @@ impl<const N: usize> Going<'_, N> {
     fn most(
         &mut self,
         step: &Step<N>,
-        dense: &mut Option<Dense<N>>,
+        looks: &mut Looks<N>,
         g: usize,
         figure: Watched,
         values: &[f64; PROBES],
@@ -103,14 +124,8 @@ impl<const N: usize> Going<'_, N> {
                 }
                 continue;
             }
-            if dense.is_none() {
-                *dense = Some(step.dense(&mut self.rhs, &mut self.out.counters)?);
-            }
-            let Some(d) = dense.as_ref() else { return Err(()) };
-            let value = |part: f64| self.figure(g, figure, step.t + part * step.h, &d.after(part * step.h));
-            let (from, until) = (grid.at[left], grid.at[right]);
-            let guess = grid.extreme(j, |j| values[j]);
-            let found = highest(from, guess, until, enough, fine * values[j].abs(), value);
+            let between = [grid.at[left], grid.extreme(j, |j| values[j]), grid.at[right]];
+            let found = self.climb(step, looks, (g, figure), between, enough, fine * values[j].abs())?;
             if found.1 > best.1 {
                 best = found;
             }
@@ -119,8 +134,79 @@ impl<const N: usize> Going<'_, N> {
         Ok((best.1 > record).then_some(best))
     }
 
-    fn figure_at_probe(&self, g: usize, figure: Watched, j: usize) -> f64 {
-        let seen = &self.rhs.probes[j];
+    /// The largest value of a figure in a part of the step, first looked for at its middle one, by parabolas through
+    /// what has been looked at there, for whichever figure; given up where `worth` cannot be reached.
+    fn climb(
+        &mut self,
+        step: &Step<N>,
+        looks: &mut Looks<N>,
+        (g, figure): (usize, Watched),
+        [from, guess, until]: [f64; 3],
+        worth: f64,
+        fine: f64,
+    ) -> Result<(f64, f64), ()> {
+        let near = NEAR * (until - from);
+        let middle = guess.clamp(from + near, until - near);
+        for part in [middle - near, middle, middle + near] {
+            self.look_at(step, looks, part, 0.5 * near)?;
+        }
+        let mut stride = near;
+        let mut found = (middle, f64::NEG_INFINITY);
+        for _ in 0..CLIMBS {
+            let inside: Vec<usize> =
+                (0..looks.at.len()).filter(|&j| looks.at[j] >= from && looks.at[j] <= until).collect();
+            let value = |j: usize| self.figure(g, figure, &looks.seen[j], looks.bearing_n[j]);
+            let values: Vec<f64> = inside.iter().map(|&j| value(j)).collect();
+            let Some(m) = (0..inside.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])) else { break };
+            let at = |j: usize| looks.at[inside[j]];
+            found = (at(m), values[m]);
+            let next = if m == 0 || m + 1 == inside.len() {
+                // It rises beyond what has been looked at.
+                stride *= 2.0;
+                if m == 0 { (at(m) - stride).max(from) } else { (at(m) + stride).min(until) }
+            } else {
+                let (x, f) = ([m - 1, m, m + 1].map(at), [m - 1, m, m + 1].map(|j| values[j]));
+                let (bend, top) = parabola(x, f);
+                let [below, above] = [x[1] - x[0], x[2] - x[1]];
+                let gap = below.max(above);
+                if found.1 + 0.5 * bend.abs() * gap * gap < worth {
+                    break;
+                }
+                // Where the top lies, and how far a third slope, taken for one of the size of the second in a step, moves it.
+                if bend.abs() * (top - x[1]).abs().max(below * above).powi(2) < 0.1 * fine {
+                    break;
+                }
+                let apart = 0.1 * gap * if above > below { 1.0 } else { -1.0 };
+                if (top - x[1]).abs() < ENOUGH { x[1] + apart } else { top }
+            };
+            if next == found.0 || !self.look_at(step, looks, next, ENOUGH)? {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// All sprags at a part of the step, unless they have been looked at nearer than `within`; whether that is new.
+    fn look_at(&mut self, step: &Step<N>, looks: &mut Looks<N>, part: f64, within: f64) -> Result<bool, ()> {
+        let place = looks.at.partition_point(|&at| at < part);
+        let beside = [place.checked_sub(1), Some(place)].into_iter().flatten();
+        if beside.filter_map(|j| looks.at.get(j)).any(|at| (at - part).abs() <= within) {
+            return Ok(false);
+        }
+        let dense = match &looks.dense {
+            Some(dense) => dense,
+            None => looks.dense.insert(step.dense(&mut self.rhs, &mut self.out.counters)?),
+        };
+        let (t, y) = (step.t + part * step.h, dense.after(part * step.h));
+        self.rhs.look::<true>(t, &y);
+        looks.at.insert(place, part);
+        looks.seen.insert(place, (0..self.groups.len()).map(|g| self.rhs.probe(g, t, &y)).collect());
+        looks.bearing_n.insert(place, self.rhs.bearing_n(&y));
+        Ok(true)
+    }
+
+    /// A figure where `seen` is seen of all and the bearings hold `bearing_n`, N.
+    fn figure(&self, g: usize, figure: Watched, seen: &[Probe], bearing_n: f64) -> f64 {
         let own = &seen[g].figures;
         let loaded_n = self.groups[g].model.loaded_n;
         match figure {
@@ -128,36 +214,8 @@ impl<const N: usize> Going<'_, N> {
             Watched::Tan(contact) if own[N_BI] >= loaded_n => own[contact],
             Watched::Tan(_) => 0.0,
             Watched::Share => self.share(own[N_BI], |g| seen[g].figures[N_BI], loaded_n),
-            Watched::Bearing => self.rhs.bearing_probes_n[j],
+            Watched::Bearing => bearing_n,
         }
-    }
-
-    fn figure(&mut self, g: usize, figure: Watched, t: f64, y: &[f64; N]) -> f64 {
-        let loaded_n = self.groups[g].model.loaded_n;
-        match figure {
-            Watched::Normal => self.normal_n(g, t, y),
-            Watched::Bearing => {
-                self.rhs.look::<true>(t, y);
-                self.rhs.bearing_n(y)
-            }
-            Watched::Tan(contact) => self.rhs.sight(g, t, y).figures[contact],
-            Watched::Share => self.share(self.normal_n(g, t, y), |g| self.normal_n(g, t, y), loaded_n),
-        }
-    }
-
-    /// N_bi of group `g` at y, N.
-    fn normal_n(&self, g: usize, t: f64, y: &[f64; N]) -> f64 {
-        let (model, motion) = (&self.groups[g].model, &self.rhs.motions[g]);
-        if motion.waits || motion.mode.place == Place::Open {
-            return 0.0;
-        }
-        let own = state_of(y, g);
-        if model.hunt_crossley_s_per_m == 0.0 && !self.rhs.bends() {
-            return model.point(motion.mode.place, own[0]).n_bi;
-        }
-        let sight = self.rhs.stands(g, motion.mode.place, t, y, &own);
-        let rates = self.rhs.goes(g, &motion.mode, &sight, y, &own);
-        model.damped(&sight.point, model.curve.speed_rad_s(), rates[0]).0
     }
 
     /// Axis of the inner race against that of the outer in the frame of the mean speed, m.
