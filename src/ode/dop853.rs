@@ -191,11 +191,12 @@ impl<const N: usize> Step<N> {
         }
         counters.rhs_evaluations += 3;
         let mut c = [[0.0; N]; 8];
+        let [from, difference, bulge, end, ..] = &mut c;
         for i in 0..used {
-            c[0][i] = self.y0[i];
-            c[1][i] = self.y1[i] - self.y0[i];
-            c[2][i] = self.h * self.stages[0][i] - c[1][i];
-            c[3][i] = c[1][i] - self.h * self.slope1[i] - c[2][i];
+            from[i] = self.y0[i];
+            difference[i] = self.y1[i] - self.y0[i];
+            bulge[i] = self.h * self.stages[0][i] - difference[i];
+            end[i] = difference[i] - self.h * self.slope1[i] - bulge[i];
         }
         for (c, d) in c[4..].iter_mut().zip(&D) {
             for (weight, k) in d.iter().zip(self.stages.iter().chain(&more)).filter(|(d, _)| **d != 0.0) {
