@@ -290,7 +290,7 @@ fn what_is_no_outline_is_refused_with_its_line() {
     // Races that it does not span.
     let other = Wanted { tracks_m: [20e-3, 40e-3], ..wanted(&design) };
     let why = sprag(&read_dxf(&good, None, None).unwrap(), &other).unwrap_err();
-    assert!(why.found.contains("mm high") && why.help.contains("--template"), "{why}");
+    assert!(why.found.contains("mm high") && why.help.contains("`tracks_m`"), "{why}");
     // A layer that is not there.
     assert!(read_dxf(&good, Some("NOWHERE"), None).unwrap_err().found.contains("NOWHERE"));
 }
