@@ -24,8 +24,8 @@ BINARIES = ([("before", BEFORE)] if BEFORE else []) + [("now", NOW)]
 DESIGNS = {"roller": "designs/huang2017-multi-arc.toml", "elastic": "designs/huang2017-elastic.toml"}
 PROBLEMS = [f"tests/optimise/designs/{p}.toml" for p in ("a-huang-at-rest", "b-huang-at-speed", "c-24-sprags", "d-indexing-elastic",
                                                             "e-starter-eight")]
-# What an answer says of its own run time, and of cases by it.
-RUN_TIMES = re.compile(r'"[a-z_]*(?:time|cpu)[a-z_]*":[-+0-9.e]+')
+# What an answer says of its own run time.
+RUN_TIMES = re.compile(r'"run_time_s":[-+0-9.e]+')
 # Least limit that still holds, as the program has it.
 RESOLUTION = 1e-8
 ROUNDS = 5
@@ -285,8 +285,7 @@ def scaling():
     jobs = {"sweep of 3000 points": ("evaluate", design, "--sobol", "3000"),
             "search, eight variables": ("optimize", PROBLEMS[-1], "--json", "-o", "-"),
             "resonance map, 20 x 20": ("resonance", design, "--scenario", "high-6", "--frequency", "20:400", "--amplitude", "1:20",
-                                       "--points", "20x20", "--json"),
-            "stability map, 100 cases": ("accuracy", design, "--scenario", "high-10", "--cases", "100", "--json")}
+                                       "--points", "20x20", "--json")}
     with tempfile.TemporaryDirectory() as folder:
         for job, words in jobs.items():
             words = [os.path.join(folder, "better.toml") if w == "-" else w for w in words]

@@ -417,7 +417,7 @@ def log_plot_points(series, across, up, line):
 
 
 def scaling():
-    jobs = list(dict.fromkeys(r[1] for r in F.rows if r[0] == "scaling" and r[4] == "time"))
+    jobs = list(dict.fromkeys(r["design"] for r in F.rows if r["part"] == "scaling" and r["quantity"] == "time"))
     same = all(F.text("scaling", job, "now", "2 threads", "the same bytes as on one") == "yes" for job in jobs)
     at = lambda setting: F("scaling", "sweep", "now", setting, "largest memory")  # noqa: E731
     said = (f"Every answer is {'the same' if same else 'NOT the same'} to the last byte on one thread and on two, run times apart, and a sweep of ten times the "

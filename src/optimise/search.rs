@@ -90,7 +90,7 @@ pub struct Search {
     pub problem: ClutchProblem,
     /// Evaluations of the clutch in all.
     pub evaluations: usize,
-    /// Derivatives of all margins along one variable beside them, each at 0.4 to 1.3 times the cost.
+    /// Derivatives of all margins along one variable beside them, each at 0.3 to 1.1 times the cost.
     pub derivatives: usize,
 }
 

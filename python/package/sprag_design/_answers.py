@@ -814,7 +814,7 @@ class Optimum(_Common):
     evaluations: int
     """Evaluations of the clutch in all."""
     derivatives: int
-    """Derivatives of all margins along one variable beside them, each at 0.4 to 1.3 times the cost."""
+    """Derivatives of all margins along one variable beside them, each at 0.3 to 1.1 times the cost."""
     failed_evaluations: int
     """Evaluations of the best climb at which there was no clutch."""
     fighting_limits: tuple[str, ...]

@@ -155,7 +155,7 @@ pub struct SearchBody {
     pub objective_error: f64,
     /// Evaluations of the clutch in all.
     pub evaluations: usize,
-    /// Derivatives of all margins along one variable beside them, each at 0.4 to 1.3 times the cost.
+    /// Derivatives of all margins along one variable beside them, each at 0.3 to 1.1 times the cost.
     pub derivatives: usize,
     /// Evaluations of the best climb at which there was no clutch.
     pub failed_evaluations: usize,

@@ -182,12 +182,11 @@ impl<'a> Rhs<'a> {
         self.bent(y, |bent| bent.touch_rad(g)).unwrap_or(own)
     }
 
-    /// Event function `which` of group `g` where contact is lost or found between races that bend.
-    fn bent_event(&self, g: usize, which: usize, y: &[f64]) -> Option<f64> {
-        self.bent.as_ref()?;
+    /// Event function `which` of group `g`, `pressed_rad` from first contact, where contact is lost or found between races that bend.
+    fn bent_event(&self, g: usize, which: usize, pressed_rad: impl Fn() -> Option<f64>) -> Option<f64> {
         match (which, self.motions[g].mode.place) {
-            (LOWER, Place::Arc(0)) => Some(self.pressed_rad(g, y) + LEAVE_RAD),
-            (UPPER, Place::Open) => Some(-self.pressed_rad(g, y)),
+            (LOWER, Place::Arc(0)) => Some(pressed_rad()? + LEAVE_RAD),
+            (UPPER, Place::Open) => Some(-pressed_rad()?),
             _ => None,
         }
     }
@@ -385,10 +384,11 @@ impl<'a> Rhs<'a> {
                 let model = &self.groups[g].model;
                 let own = state_of(y, g);
                 let mut seen = probe_of(model, &motion.mode, &own, &s.point, &s.forces, true);
+                // They are bent as y has them.
+                let pressed_rad = || Some(self.bent.as_ref()?.try_borrow().ok()?.pressed_rad(g));
                 for which in [LOWER, UPPER] {
-                    if let Some(bent) = self.bent_event(g, which, y) {
-                        seen.events[which] = bent;
-                    }
+                    let bent = self.bent_event(g, which, pressed_rad);
+                    seen.events[which] = bent.unwrap_or(seen.events[which]);
                 }
                 let (mu, f) = (model.friction.static_, &s.forces);
                 if motion.mode.inner == Grip::Stick && motion.mode.place != Place::Open {
@@ -419,7 +419,7 @@ impl<'a> Rhs<'a> {
         let (model, motion) = (&self.groups[g].model, &self.motions[g]);
         let own = state_of(y, g);
         if !motion.waits
-            && let Some(bent) = self.bent_event(g, which, y)
+            && let Some(bent) = self.bent_event(g, which, || self.bent(y, |bent| bent.pressed_rad(g)))
         {
             return bent;
         }
