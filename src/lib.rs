@@ -20,7 +20,7 @@
 //! | 1 | [`lubrication`] | oils, film of a line contact, its shear, heat and wear; never heard of a clutch |
 //! | 1 | [`clutch`] | the nouns, SI: a clutch and its parts, radii as run, what happens to it |
 //! | 1 | [`design`] | a checked design: clutch, limits, scenarios, the optimiser's task |
-//! | 1 | [`file`] | the design file, read, checked, changed; the only way in for mm, degrees, GPa |
+//! | 1 | [`file`](mod@file) | the design file, read, checked, changed; the only way in for mm, degrees, GPa |
 //! | 2 | [`kinematics`] | lengths, angles, levers, rolling ratios |
 //! | 2 | [`contact`] | local line contact: roller law, Hertz, slices |
 //! | 2 | [`friction`] | coefficient over speed, dry and on a film |
