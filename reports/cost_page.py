@@ -449,7 +449,7 @@ def main():
                + (f", {gain('roller'):.1f} times fewer than before ({gain('elastic'):.1f} times with law elastic)" if BEFORE else "")
                + f", {number(each)} ms of a processor: {1e3 / each:.0f} a second on each that is free. At the points compared no margin is off by more than {number(worst, 2)}; {STATED_WORDS}.")
     loaded = f"The machine has {cores:.0f} processors; {busy[0]:.1f} to {busy[1]:.1f} processes wanted to run at a time, these among them. "
-    loaded += ("It did nothing else." if busy[1] <= cores + 0.5 else "It did other work: wall times and evaluations a second are lower than on a quiet machine; counts of "
+    loaded += ("" if busy[1] <= cores + 0.5 else "It did other work: wall times and evaluations a second are lower than on a quiet machine; counts of "
                "instructions are not touched by that, processor times little.")
     optima = "; ".join(f"{title}: {near:.0f} of {all_:.0f} evaluations, in the end {number(off, 2)} below the best"
                        for title, near, all_, off in counts)
@@ -480,7 +480,7 @@ def main():
 <p>{e(". ".join(s[0].upper() + s[1:] for s in said))}. An evaluation is every margin of one design: four scenes and the clutch at rest.</p>
 {phase_table}
 <h2>Evaluations a second</h2>
-<p>{e(f"Now {speeds[0]:.0f} evaluations a second of law roller on one thread and {speeds[1]:.0f} on two, beside the other work of this machine; an evaluation takes {number(each)} ms of a processor.")}</p>
+<p>{e(f"Now {speeds[0]:.0f} evaluations a second of law roller on one thread and {speeds[1]:.0f} on two; an evaluation takes {number(each)} ms of a processor.")}</p>
 {speed()}
 <p>{e("Before and now in turn, five pairs; each evaluates the same 100 points of the box at which there is a clutch, the start of the program taken off. " if BEFORE else "Five times the same 100 points of the box at which there is a clutch, the start of the program taken off. ")}{e(loaded)}</p>
 <h2>The floor</h2>
