@@ -41,7 +41,7 @@ fn common(seconds: f64, left_out: &[LeftOut], error_estimate: Value) -> PyResult
 }
 
 /// Common keys and figures of a whole answer.
-fn parts(answer: &Envelope<'_, Value>) -> PyResult<(String, String)> {
+fn parts<B: serde::Serialize>(answer: &Envelope<'_, B>) -> PyResult<(String, String)> {
     let error = answer.error_estimate.clone().unwrap_or(Value::Null);
     Ok((common(answer.run_time_s, &answer.left_out, error)?, json(&answer.body)?))
 }
