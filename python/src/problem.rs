@@ -10,11 +10,12 @@ use sprag_design::design::Optimize;
 use sprag_design::optimise::{ClutchProblem, Evaluate};
 use sprag_design::sweep::{BoxSample, Sampling};
 use sprag_design::{Design, Follow};
+use std::sync::Arc;
 
 /// A design's variables and the margins at their values.
 #[pyclass(frozen, module = "sprag_design._core")]
 pub struct Problem {
-    problem: ClutchProblem,
+    problem: Arc<ClutchProblem>,
     task: Optimize,
     about: String,
 }
@@ -26,7 +27,7 @@ impl Problem {
                 "{file}: the design has no [optimize] table; add one with objective, scenarios and variables"
             )));
         };
-        let problem = ClutchProblem::of_task(design, task, full);
+        let problem = Arc::new(ClutchProblem::of_task(design, task, full));
         let about = |v: &sprag_design::design::OptimizeVariable| object!({ "name": v.name, "min": v.min, "max": v.max, "start": v.start, "whole": v.whole });
         let variables: Vec<_> = task.variables.iter().map(about).collect();
         let about = json(&object!({ "aim": task.objective.name(), "variables": variables }))?;
@@ -73,7 +74,8 @@ impl Problem {
     /// Names of objectives and limits, those of the start.
     fn names(&self, py: Python<'_>, x: Vec<f64>) -> PyResult<(Vec<String>, Vec<String>)> {
         self.checked(&x)?;
-        let assessed = py.detach(|| self.problem.assess_at(&x));
+        let problem = self.problem.clone();
+        let assessed = pool::compute(py, &Follow::nobody(), move || problem.assess_at(&x))?;
         let assessed = assessed.map_err(|why| crate::errors::no_clutch(py, &why))?;
         let names = self.problem.names(&assessed);
         Ok((names.objectives, names.limits))
@@ -82,8 +84,9 @@ impl Problem {
     /// Objectives, limits, least objective, violation, feasible, and why there is no clutch at x.
     fn evaluate(&self, py: Python<'_>, x: Vec<f64>) -> PyResult<Evaluated> {
         self.checked(&x)?;
-        // One evaluation uses one thread, so that a process that was forked needs no pool for it.
-        Ok(py.detach(|| evaluated(&self.problem, &x)))
+        // Scenes share the threads of this process: those of its parent are not there after a fork.
+        let problem = self.problem.clone();
+        pool::compute(py, &Follow::nobody(), move || evaluated(&problem, &x))
     }
 
     /// The same of many points side by side, in their order.
