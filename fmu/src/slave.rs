@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 use sprag_design::clutch::Start;
-use sprag_design::file::is_whole;
 use sprag_design::element::{Beginning, Element, Motion, Saved, Settings, Torque};
 use sprag_design::export::fmu::{
     ElementQuantity, FIRST_KEY, QUANTITIES, Role, ScalarVariable, VariableSubject, VariableType, token,
     variables,
 };
+use sprag_design::file::is_whole;
 use sprag_design::{Clutch, Design, Stop};
 use std::path::Path;
 

@@ -74,8 +74,7 @@ impl Problem {
     /// Names of objectives and limits, those of the start.
     fn names(&self, py: Python<'_>, x: Vec<f64>) -> PyResult<(Vec<String>, Vec<String>)> {
         self.checked(&x)?;
-        let problem = self.problem.clone();
-        let assessed = pool::compute(py, &Follow::nobody(), move || problem.assess_at(&x))?;
+        let assessed = py.detach(|| self.problem.assess_at(&x));
         let assessed = assessed.map_err(|why| crate::errors::no_clutch(py, &why))?;
         let names = self.problem.names(&assessed);
         Ok((names.objectives, names.limits))
@@ -84,9 +83,8 @@ impl Problem {
     /// Objectives, limits, least objective, violation, feasible, and why there is no clutch at x.
     fn evaluate(&self, py: Python<'_>, x: Vec<f64>) -> PyResult<Evaluated> {
         self.checked(&x)?;
-        // Scenes share the threads of this process: those of its parent are not there after a fork.
-        let problem = self.problem.clone();
-        pool::compute(py, &Follow::nobody(), move || evaluated(&problem, &x))
+        // One evaluation uses one thread, so that a process that was forked needs no pool for it.
+        Ok(py.detach(|| evaluated(&self.problem, &x)))
     }
 
     /// The same of many points side by side, in their order.

@@ -108,6 +108,12 @@ struct Way<'a> {
     scene: &'a SceneRows<'a>,
 }
 
+/// Whether an evaluation may share threads: within what shares them already. One that is asked for alone stays on the thread of who
+/// asks, so that a process that was forked needs no pool for it.
+fn shares_threads() -> bool {
+    rayon::current_thread_index().is_some()
+}
+
 /// Everything known of one clutch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assessment {
@@ -360,15 +366,21 @@ impl ClutchProblem {
         };
         let scenes = |wanted: &(dyn Fn(&String) -> bool + Sync)| {
             let asked: Vec<&Scenario> = design.scenarios.iter().filter(|s| wanted(&s.name)).collect();
-            let rows = asked.par_iter().map(|scenario| (way.scene)(k, scenario, state.at_rest(design)));
-            let rows = rows.collect::<Vec<_>>().concat();
+            let of = |scenario: &&Scenario| (way.scene)(k, scenario, state.at_rest(design));
+            let rows: Vec<Vec<Margin>> = match shares_threads() {
+                true => asked.par_iter().map(of).collect(),
+                false => asked.iter().map(of).collect(),
+            };
+            let rows = rows.concat();
             // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
             match rows.iter().find(|r| !r.computed()) {
                 Some(row) => Err(NoEvaluation::Refused(row.full_name())),
                 None => Ok(rows),
             }
         };
-        let (mut rows, of_scenes) = rayon::join(loaded, || scenes(&|name| self.scenarios.contains(name)));
+        let own = || scenes(&|name| self.scenarios.contains(name));
+        let (mut rows, of_scenes) =
+            if shares_threads() { rayon::join(loaded, own) } else { (loaded(), own()) };
         rows.extend(of_scenes?);
         let mut measures_of_goals = Vec::new();
         for (k, goal) in self.goals.iter().enumerate() {
@@ -444,8 +456,10 @@ impl ClutchProblem {
             found.measures.iter_mut().for_each(|m| m.code = format!("{} @ {name}", m.code));
             Ok(found)
         };
-        let found: Vec<Result<Assessment, NoEvaluation>> =
-            self.corners.par_iter().enumerate().map(at).collect();
+        let found: Vec<Result<Assessment, NoEvaluation>> = match shares_threads() {
+            true => self.corners.par_iter().enumerate().map(at).collect(),
+            false => self.corners.iter().enumerate().map(at).collect(),
+        };
         let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
         for found in found {
             let found = found?;
