@@ -102,7 +102,7 @@ type SceneRows<'a> = dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin> + Sync + 'a
 /// The load state at a corner, by its number.
 type StateAt<'a> = dyn Fn(usize, &Design) -> Result<Arc<LoadState>, NoMargins> + Sync + 'a;
 
-/// How an evaluation is taken. Corners and scenes are taken side by side where threads are free.
+/// How an evaluation is taken; corners and scenes side by side within what shares threads.
 struct Way<'a> {
     state: &'a StateAt<'a>,
     scene: &'a SceneRows<'a>,
@@ -112,6 +112,14 @@ struct Way<'a> {
 /// asks, so that a process that was forked needs no pool for it.
 fn shares_threads() -> bool {
     rayon::current_thread_index().is_some()
+}
+
+/// `of` each of `items`, in their order.
+fn of_each<T: Sync, R: Send>(items: &[T], of: impl Fn((usize, &T)) -> R + Sync) -> Vec<R> {
+    match shares_threads() {
+        true => items.par_iter().enumerate().map(&of).collect(),
+        false => items.iter().enumerate().map(of).collect(),
+    }
 }
 
 /// Everything known of one clutch.
@@ -174,8 +182,9 @@ impl ClutchProblem {
     }
 
     /// The same problem at a quarter of the work: quick curves and quick rolling runs, whose margins differ from those of
-    /// [`Fidelity::settings`] by less than the tolerance there (by twice that with law `elastic`; test `an_evaluation_of_a_search_is_one_of_check`), and by 1e-11 or so where nothing should move them. Not for what
-    /// asks whether a variable has any influence. Of no effect where everything is to run.
+    /// [`Fidelity::settings`] by less than the tolerance there (by twice that with law `elastic`; test
+    /// `an_evaluation_of_a_search_is_one_of_check`), and by 1e-11 or so where nothing should move them. Not for what asks whether a
+    /// variable has any influence. Of no effect where everything is to run.
     pub fn quickly(&self) -> Self {
         Self { quick: self.fidelity.reduced, ..self.clone() }
     }
@@ -366,12 +375,8 @@ impl ClutchProblem {
         };
         let scenes = |wanted: &(dyn Fn(&String) -> bool + Sync)| {
             let asked: Vec<&Scenario> = design.scenarios.iter().filter(|s| wanted(&s.name)).collect();
-            let of = |scenario: &&Scenario| (way.scene)(k, scenario, state.at_rest(design));
-            let rows: Vec<Vec<Margin>> = match shares_threads() {
-                true => asked.par_iter().map(of).collect(),
-                false => asked.iter().map(of).collect(),
-            };
-            let rows = rows.concat();
+            let rows =
+                of_each(&asked, |(_, scenario)| (way.scene)(k, scenario, state.at_rest(design))).concat();
             // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
             match rows.iter().find(|r| !r.computed()) {
                 Some(row) => Err(NoEvaluation::Refused(row.full_name())),
@@ -456,12 +461,8 @@ impl ClutchProblem {
             found.measures.iter_mut().for_each(|m| m.code = format!("{} @ {name}", m.code));
             Ok(found)
         };
-        let found: Vec<Result<Assessment, NoEvaluation>> = match shares_threads() {
-            true => self.corners.par_iter().enumerate().map(at).collect(),
-            false => self.corners.iter().enumerate().map(at).collect(),
-        };
         let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
-        for found in found {
+        for found in of_each(&self.corners, at) {
             let found = found?;
             all.rows.extend(found.rows);
             all.measures.extend(found.measures);

@@ -17,7 +17,8 @@ struct Slot {
 }
 
 impl AtSpeeds {
-    /// As [`WedgeCurve::at_speed`] of `known`, which is always that of the same clutch.
+    /// As [`WedgeCurve::build_reaching_at`] has it of the clutch that `known`, always the same, is of, whose elastic laws and bodies
+    /// stand already; `None`: that is to be asked.
     pub fn of(
         &self,
         known: &WedgeCurve,

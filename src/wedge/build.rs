@@ -76,13 +76,8 @@ impl WedgeCurve {
         }
     }
 
-    /// The curve of the same clutch at mean speed `speed_rad_s`, as [`Self::build_reaching_at`] has it at the effort of this one, whose
+    /// The curve of the same clutch at mean speed `speed_rad_s`, whether or not it [`Self::is_trusted`], at the effort of this one, whose
     /// elastic laws and bodies stand already; `None`: that is to be asked.
-    pub fn at_speed(&self, speed_rad_s: f64, reach_nm: Option<f64>, effort: Effort) -> Option<Self> {
-        self.marched(speed_rad_s, reach_nm, effort).filter(Self::is_trusted)
-    }
-
-    /// The same whether or not it [`Self::is_trusted`].
     pub(super) fn marched(&self, speed_rad_s: f64, reach_nm: Option<f64>, effort: Effort) -> Option<Self> {
         let same = self.effort == effort;
         same.then(|| Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort))?.ok()
