@@ -1,10 +1,10 @@
 //! Love's influence between the cells of a patch that is symmetric about x = 0, applied through FFT.
 
 use std::f64::consts::PI;
-use std::sync::Arc;
 
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::algorithm::Radix4;
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftDirection, Length};
 
 use super::conjugate::{self, ConjugateSettings, HalfSpaceStatus};
 use crate::contact::line::{ContactError, positive};
@@ -26,8 +26,8 @@ pub struct HalfSpaceGrid {
     mirrors: [f64; 2],
     /// Spectrum along y of K at each distance across, one row per distance 0 .. across, m/Pa over FFT length.
     spectrum: Vec<f64>,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    forward: Radix4<f64>,
+    inverse: Radix4<f64>,
 }
 
 /// Pressures on the half patch x > 0.
@@ -66,10 +66,7 @@ impl HalfSpaceGrid {
         let dy = positive("length_m", length_m)? / along as f64;
         positive("contact_modulus_pa", contact_modulus_pa)?;
         // zero padding keeps the ends apart; mirrored loads need as much room again on either side
-        let period = if mirrors == [0.0; 2] { 2 * along } else { 4 * along };
-        let mut planner = RealFftPlanner::new();
-        let forward = planner.plan_fft_forward(period);
-        let inverse = planner.plan_fft_inverse(period);
+        let period = (if mirrors == [0.0; 2] { 2 * along } else { 4 * along }).next_power_of_two();
         let frequencies = period / 2 + 1;
         let mut grid = Self {
             half: across / 2,
@@ -78,20 +75,19 @@ impl HalfSpaceGrid {
             contact_modulus_pa,
             mirrors,
             spectrum: Vec::with_capacity(across * frequencies),
-            forward,
-            inverse,
+            forward: Radix4::new(period, FftDirection::Forward),
+            inverse: Radix4::new(period, FftDirection::Inverse),
         };
-        let mut row = vec![0.0; period];
-        let mut spectrum = vec![Complex::default(); frequencies];
+        let mut row = vec![Complex::default(); period];
         for distance in 0..across {
             for (d, value) in row.iter_mut().enumerate() {
                 let steps = d.min(period - d) as f64;
-                *value = love_m_per_pa(distance as f64 * dx, steps * dy, 0.5 * dx, 0.5 * dy)
-                    / (PI * contact_modulus_pa * period as f64);
+                let love = love_m_per_pa(distance as f64 * dx, steps * dy, 0.5 * dx, 0.5 * dy);
+                *value = Complex::from(love / (PI * contact_modulus_pa * period as f64));
             }
-            transform(&*grid.forward, &mut row, &mut spectrum);
+            grid.forward.process(&mut row);
             // even along y: the imaginary parts are roundings
-            grid.spectrum.extend(spectrum.iter().map(|c| c.re));
+            grid.spectrum.extend(row[..frequencies].iter().map(|c| c.re));
         }
         Ok(grid)
     }
@@ -155,60 +151,58 @@ impl HalfSpaceGrid {
     }
 
     fn work(&self) -> Work {
-        let frequencies = self.spectrum.len() / (2 * self.half);
+        let period = self.forward.len();
+        let scratch = self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len());
         Work {
-            line: vec![0.0; 2 * (frequencies - 1)],
-            load: vec![Complex::default(); self.half * frequencies],
-            sunk: vec![Complex::default(); frequencies],
+            line: vec![Complex::default(); period],
+            load: vec![Complex::default(); self.half * (period / 2 + 1)],
+            scratch: vec![Complex::default(); scratch],
         }
     }
 
     /// Displacement, m, of both bodies together under `pressure`, Pa, on x > 0 and its image on x < 0.
     fn displace(&self, pressure: &[f64], sunk_m: &mut [f64], work: &mut Work) {
-        let frequencies = work.sunk.len();
+        let Work { line, load, scratch } = work;
+        let (n, period) = (self.along, line.len());
+        let frequencies = period / 2 + 1;
         let mirrored = self.mirrors != [0.0; 2];
-        let n = self.along;
-        for (p, load) in pressure.chunks_exact(n).zip(work.load.chunks_exact_mut(frequencies)) {
-            work.line.fill(0.0);
-            work.line[..n].copy_from_slice(p);
-            if mirrored {
-                let period = work.line.len();
-                for (k, p) in p.iter().enumerate() {
+        for (p, load) in pressure.chunks_exact(n).zip(load.chunks_exact_mut(frequencies)) {
+            line.fill(Complex::default());
+            for (k, p) in p.iter().enumerate() {
+                line[k].re = *p;
+                if mirrored {
                     // about +l/2, and about -l/2 round the period
-                    work.line[2 * n - 1 - k] = self.mirrors[1] * p;
-                    work.line[period - 1 - k] = self.mirrors[0] * p;
+                    line[2 * n - 1 - k].re = self.mirrors[1] * p;
+                    line[period - 1 - k].re = self.mirrors[0] * p;
                 }
             }
-            transform(&*self.forward, &mut work.line, load);
+            self.forward.process_with_scratch(line, scratch);
+            load.copy_from_slice(&line[..frequencies]);
         }
         let kernel = |distance: usize| &self.spectrum[distance * frequencies..][..frequencies];
         for (i, sunk_m) in sunk_m.chunks_exact_mut(n).enumerate() {
-            work.sunk.fill(Complex::default());
-            for (k, load) in work.load.chunks_exact(frequencies).enumerate() {
+            line.fill(Complex::default());
+            for (k, load) in load.chunks_exact(frequencies).enumerate() {
                 let (own, image) = (kernel(i.abs_diff(k)), kernel(i + k + 1));
-                for (((u, p), a), b) in work.sunk.iter_mut().zip(load).zip(own).zip(image) {
+                for (((u, p), a), b) in line.iter_mut().zip(load).zip(own).zip(image) {
                     *u += p * (a + b);
                 }
             }
-            // only lengths can be wrong, and they come from the same plan
-            let done = self.inverse.process(&mut work.sunk, &mut work.line);
-            debug_assert!(done.is_ok());
-            sunk_m.copy_from_slice(&work.line[..n]);
+            // what is real has the conjugate of each frequency at its negative
+            for f in 1..period - period / 2 {
+                line[period - f] = line[f].conj();
+            }
+            self.inverse.process_with_scratch(line, scratch);
+            sunk_m.iter_mut().zip(line.iter()).for_each(|(u, value)| *u = value.re);
         }
     }
 }
 
-/// Scratch of one application.
+/// Scratch of one application: a line of loads or of what they sink, the spectra of all loads, and the transform's own.
 struct Work {
-    line: Vec<f64>,
+    line: Vec<Complex<f64>>,
     load: Vec<Complex<f64>>,
-    sunk: Vec<Complex<f64>>,
-}
-
-fn transform(plan: &dyn RealToComplex<f64>, line: &mut [f64], spectrum: &mut [Complex<f64>]) {
-    // only lengths can be wrong, and they come from the same plan
-    let done = plan.process(line, spectrum);
-    debug_assert!(done.is_ok());
+    scratch: Vec<Complex<f64>>,
 }
 
 /// Love's solution times pi E* per unit pressure on |x| < a, |y| < b (Johnson, *Contact Mechanics*, (3.25)):
