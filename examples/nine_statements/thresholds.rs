@@ -5,7 +5,7 @@ use sprag_design::clutch::{Friction, Scenario, ScenarioKind};
 use sprag_design::design::Design;
 use sprag_design::scenario::{Settings, simulate};
 
-use crate::statement::{STATEMENTS, Statement};
+use super::statement::{STATEMENTS, Statement};
 
 /// Something that the paper does not give, or gives rounded.
 pub struct Unknown {

@@ -18,7 +18,7 @@ const POINTS: usize = 400;
 ///   A_0 = (sin theta_0 - theta_0 cos theta_0)/pi,   A_1 = (theta_0 - sin theta_0 cos theta_0)/pi
 ///   g = (1/pi) [theta_0 sin theta + (cos theta - cos theta_0) ln|sin((theta + theta_0)/2)/sin((theta - theta_0)/2)|]
 ///
-/// a_0 is the half width without a step. tests/patch_contact.rs holds it against a half-plane solution.
+/// a_0 is the half width without a step. tests/wedge/patch_contact.rs holds it against a half-plane solution.
 pub fn step_peak_error(here_per_m: f64, beyond_per_m: f64) -> f64 {
     let d = beyond_per_m / here_per_m - 1.0;
     let share = |cos: f64| {

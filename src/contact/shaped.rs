@@ -11,7 +11,7 @@ use crate::numeric::chebyshev::Chebyshev;
 /// The factor is 1 + [delta_fit(N) - delta_square(N)]/delta_base(N): slices know how much deeper a shaped or tilted
 /// contact sinks than a straight one under the same force, and that difference does not depend on how deep in the
 /// bodies the approach is measured. ln(factor) is a Chebyshev series in ln N over `FORCES` times
-/// E* l R. Where ten slices or more bear it agrees with them to 1.5 % (`tests/slice_shaped.rs`); under forces at
+/// E* l R. Where ten slices or more bear it agrees with them to 1.5 % (`tests/wedge/slice_shaped.rs`); under forces at
 /// which fewer than four bear, where each is a step, the factor levels out: there, far below any load of interest, a
 /// tilted contact is softer than this law. Beyond the range the factor is held.
 #[derive(Debug, Clone, PartialEq)]

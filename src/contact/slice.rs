@@ -18,7 +18,7 @@ use crate::numeric::toeplitz::{solve_symmetric, times_symmetric};
 ///
 /// Cost: closed slices that lie side by side are a Toeplitz system, solved in some 6 n^2 operations and memory of
 /// order n; only scattered ones (a wavy table) need the dense factor, n^3/3 and 8 n^2 bytes. Measured by
-/// `cargo test --release --test slice_cost -- --ignored --nocapture`.
+/// `cargo test --release --test wedge slice_cost -- --ignored --nocapture`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliceContact {
     contact: LineContact,
@@ -82,7 +82,7 @@ pub struct SliceSolution {
     pub deflection_m: Vec<f64>,
     /// p(y): peak pressure of each slice, Pa, by Hertz at its own line load: sqrt(q_j n E*/(pi R l)).
     ///
-    /// Against half-spaces (tests/slice_half_space.rs) good to 0.4 % in the middle; at a square end 6-29 %
+    /// Against half-spaces (tests/wedge/slice_half_space.rs) good to 0.4 % in the middle; at a square end 6-29 %
     /// low, since the end is narrower than Hertz's width at its load. p_0 q_j n/N is an upper bound there.
     pub pressure_pa: Vec<f64>,
     /// Index of the slice with the largest load.

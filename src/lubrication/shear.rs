@@ -22,7 +22,7 @@ pub struct Shear {
 /// flat one 2 a/h, together the root of the squares of both; viscosity at the mean pressure load/(l h C) by Roelands,
 /// at the walls' temperature, times [`nahme_factor`]; the stress bends round to its limit, tau/sqrt(1 + (tau/tau_L)^2)
 /// (Lee and Hamrock 1990). Rolling: integral (h/2) dp/dx dx of the rigid contact, 3.251 eta u l sqrt(2 R/h_0), u = v/2.
-/// Both against the numerical solution in `tests/lubrication.rs`.
+/// Both against the numerical solution in `tests/service/lubrication.rs`.
 pub fn shear(
     contact: &FilmContact,
     fluid: &Fluid,

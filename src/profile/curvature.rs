@@ -15,7 +15,7 @@
 //! * The force lies where its moment works on the turn of the profile: dh under Hertz's pressure. Curvature that differs
 //!   ahead and behind takes it away from the contact point by (a/k) int m'(u) h''(u a) du,
 //!   m = [sqrt(1 - u^2) - |u| acos|u| - (1 - u^2)^(3/2)/3]/pi, k the curvature of the gap: towards what is curved less.
-//!   The plane contact of a step d of curvature has it at -d a m(c/a) (tests/patch_contact.rs).
+//!   The plane contact of a step d of curvature has it at -d a m(c/a) (tests/wedge/patch_contact.rs).
 //!
 //! What a patch's edge meets it feels as (1 - u)^(3/2) in its width but as (1 - u)^(5/2) in its approach, so a
 //! junction that comes under the edge leaves no kink in the tangent stiffness.

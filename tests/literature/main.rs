@@ -1,6 +1,6 @@
 //! Each margin against a hand calculation that shares no code with it: the formula stands in a comment with its
 //! source, its numbers are those of the design file. Shear below the contacts, axial load, body and crowding are in
-//! `tests/capacity.rs`.
+//! `tests/wedge/capacity.rs`.
 
 #![allow(missing_docs)]
 

@@ -1,7 +1,7 @@
 //! Every misprint of the paper, printed form beside corrected form, each decided by mechanics that neither form
 //! was derived from here: vectors in the plane, balance of momentum, angular momentum and power.
 //!
-//! (7) is decided beside its home in `src/race/ring.rs`, (A.8) in `tests/statics.rs`.
+//! (7) is decided beside its home in `src/race/ring.rs`, (A.8) in `tests/wedge/statics.rs`.
 #[path = "../common/mod.rs"]
 mod common;
 mod geometry;

@@ -1,4 +1,4 @@
-"""Reference for tests/bending.rs: three unlike sprags between races that bend, by other means.
+"""Reference for tests/unlike/bending.rs: three unlike sprags between races that bend, by other means.
 
     python3 -m venv /tmp/v && /tmp/v/bin/pip install numpy scipy && /tmp/v/bin/python tests/reference/bending.py
 

@@ -1,4 +1,4 @@
-"""Reference for tests/drivetrain.rs: the case of drivetrain.toml by other means.
+"""Reference for tests/motion/drivetrain.rs: the case of drivetrain.toml by other means.
 
     python3 -m venv /tmp/v && /tmp/v/bin/pip install numpy scipy && /tmp/v/bin/python tests/reference/drivetrain.py
 

@@ -1,4 +1,4 @@
-"""Reference for tests/each_sprag.rs: two unlike kinds of sprags in one scene by other means.
+"""Reference for tests/unlike/each_sprag.rs: two unlike kinds of sprags in one scene by other means.
 
     python3 -m venv /tmp/v && /tmp/v/bin/pip install numpy scipy && /tmp/v/bin/python tests/reference/each_sprag.py
 

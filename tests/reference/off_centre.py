@@ -1,4 +1,4 @@
-"""Reference for tests/off_centre.rs: a race that runs out and gives way on its bearings, by other means.
+"""Reference for tests/unlike/off_centre.rs: a race that runs out and gives way on its bearings, by other means.
 
     python3 -m venv /tmp/v && /tmp/v/bin/pip install numpy scipy && /tmp/v/bin/python tests/reference/off_centre.py
 

@@ -1,4 +1,4 @@
-"""Reference for tests/periodic.rs: periodic motions in stick by other means.
+"""Reference for tests/motion/periodic.rs: periodic motions in stick by other means.
 
     python3 -m venv /tmp/v && /tmp/v/bin/pip install numpy scipy && /tmp/v/bin/python tests/reference/periodic.py
 

@@ -1,4 +1,4 @@
-"""Reference for tests/roll_over.rs: the single-arc clutch of Huang, Liu and Zhao (2017) over the highest place of its sprags.
+"""Reference for tests/wedge/roll_over.rs: the single-arc clutch of Huang, Liu and Zhao (2017) over the highest place of its sprags.
 
     python3 -m venv /tmp/v && /tmp/v/bin/pip install numpy scipy && /tmp/v/bin/python tests/reference/roll_over.py
 

@@ -1,4 +1,4 @@
-"""Reference for tests/spiral.rs: Table 1's clutch of Huang, Liu and Zhao (2017) with spirals for an inner profile.
+"""Reference for tests/wedge/spiral.rs: Table 1's clutch of Huang, Liu and Zhao (2017) with spirals for an inner profile.
 
     python3 -m venv /tmp/v && /tmp/v/bin/pip install numpy scipy && /tmp/v/bin/python tests/reference/spiral.py
 

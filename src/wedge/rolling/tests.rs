@@ -88,7 +88,7 @@ fn the_shift_is_that_of_the_integral_equation() {
     assert!((first - 0.143).abs() < 0.01, "{first}");
 }
 
-/// That torque works on approach and shift is an identity of `tests/statics.rs`; what of it goes along the tracks is that
+/// That torque works on approach and shift is an identity of `tests/wedge/statics.rs`; what of it goes along the tracks is that
 /// of finite elements, 0.2 to 0.9 %.
 #[test]
 fn a_few_thousandths_of_the_work_go_along_the_tracks() {

@@ -1,0 +1,10 @@
+//! What becomes of a clutch in service: film, heat, wear, life, slips and blows, strokes.
+
+#[path = "../common/program.rs"]
+mod program;
+
+mod feed;
+mod life;
+mod lubrication;
+mod reengage;
+mod worn;

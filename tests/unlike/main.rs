@@ -1,0 +1,9 @@
+//! Sprags one by one, and races off centre or bent.
+
+#[path = "../common/scenes.rs"]
+mod scenes;
+
+mod bending;
+mod each_sprag;
+mod off_centre;
+mod sharing;
