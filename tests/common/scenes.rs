@@ -4,6 +4,15 @@
 use sprag_design::Design;
 use sprag_design::clutch::{Scenario, ScenarioKind};
 
+/// Scenes in which sprags slip, lift and catch: file and name.
+pub const TRYING: [(&str, &str); 5] = [
+    ("huang2017-multi-arc", "high-10"),
+    ("huang2017-multi-arc", "low-10-mu082"),
+    ("huang2017-bench", "in-and-out"),
+    ("huang2017-bench", "engagement-weak-spring"),
+    ("huang2017-bench", "step-down"),
+];
+
 pub fn scene(file: &str, name: &str) -> Scenario {
     let path = format!("{}/designs/{file}.toml", env!("CARGO_MANIFEST_DIR"));
     Design::read(path.as_ref()).unwrap().scenario(name).unwrap().clone()

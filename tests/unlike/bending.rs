@@ -97,13 +97,7 @@ fn a_torque_that_rises_slowly_is_shared_between_races_that_bend_as_statics_share
 
 #[test]
 fn unlike_sprags_between_races_that_bend_balance_their_energy() {
-    for (file, name) in [
-        ("huang2017-multi-arc", "high-10"),
-        ("huang2017-multi-arc", "low-10-mu082"),
-        ("huang2017-bench", "in-and-out"),
-        ("huang2017-bench", "engagement-weak-spring"),
-        ("huang2017-bench", "step-down"),
-    ] {
+    for (file, name) in crate::scenes::TRYING {
         let scene = scene(file, name);
         for (seed, stiffness) in [(1, None), (2, None), (1, Some(1e8))] {
             let sharing = Sharing {

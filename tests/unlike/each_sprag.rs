@@ -228,13 +228,7 @@ fn drawn(seed: u64) -> Sharing {
 
 #[test]
 fn unlike_sprags_that_slip_and_lift_one_by_one_balance_their_energy() {
-    for (file, name) in [
-        ("huang2017-multi-arc", "high-10"),
-        ("huang2017-multi-arc", "low-10-mu082"),
-        ("huang2017-bench", "in-and-out"),
-        ("huang2017-bench", "engagement-weak-spring"),
-        ("huang2017-bench", "step-down"),
-    ] {
+    for (file, name) in crate::scenes::TRYING {
         let scene = scene(file, name);
         for seed in [1, 2] {
             let many = Many::new(&scene, &drawn(seed), false).unwrap();
