@@ -7,6 +7,7 @@
 #[path = "common/program.rs"]
 mod program;
 
+use rayon::prelude::*;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -129,36 +130,40 @@ fn copied(from: &Path, to: &Path) {
     }
 }
 
-#[test]
-fn every_command_of_readme_and_guide_prints_what_they_show() {
+/// Runs the commands of a page; their number.
+fn held(page: &Path) -> usize {
+    let text = std::fs::read_to_string(page).unwrap();
+    let folder = program::Folder::new();
+    let here = PathBuf::from(folder.path(""));
+    copied(Path::new("designs"), &here.join("designs"));
+    copied(Path::new("tests/reference"), &here.join("tests/reference"));
     let mut count = 0;
-    for page in pages(Path::new("")) {
-        let text = std::fs::read_to_string(&page).unwrap();
-        let folder = program::Folder::new();
-        let here = PathBuf::from(folder.path(""));
-        copied(Path::new("designs"), &here.join("designs"));
-        copied(Path::new("tests/reference"), &here.join("tests/reference"));
-        for step in steps(&text) {
-            let (input, command) = with_input(&step.command);
-            let Some(args) = command.strip_prefix("sprag-design ") else { continue };
-            count += 1;
-            let out = run(args, input, &here);
-            let printed =
-                format!("{}{}", String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
-            let place = format!("{}: {}", page.display(), step.command);
-            // What the page shows as refused is refused, all else is answered.
-            let refused =
-                step.shown.first().is_some_and(|line| line.starts_with("  ×") || line.starts_with("error:"));
-            let code = out.status.code();
-            assert!(
-                matches!((refused, code), (false, Some(0 | 1)) | (true, Some(2 | 3))),
-                "{place}: {code:?}\n{printed}"
-            );
-            if let Some(line) = missing(&step.shown, &printed) {
-                panic!("{place}\nis said to print\n{line}\nand prints\n{printed}");
-            }
+    for step in steps(&text) {
+        let (input, command) = with_input(&step.command);
+        let Some(args) = command.strip_prefix("sprag-design ") else { continue };
+        count += 1;
+        let out = run(args, input, &here);
+        let printed =
+            format!("{}{}", String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
+        let place = format!("{}: {}", page.display(), step.command);
+        // What the page shows as refused is refused, all else is answered.
+        let refused =
+            step.shown.first().is_some_and(|line| line.starts_with("  ×") || line.starts_with("error:"));
+        let code = out.status.code();
+        assert!(
+            matches!((refused, code), (false, Some(0 | 1)) | (true, Some(2 | 3))),
+            "{place}: {code:?}\n{printed}"
+        );
+        if let Some(line) = missing(&step.shown, &printed) {
+            panic!("{place}\nis said to print\n{line}\nand prints\n{printed}");
         }
     }
+    count
+}
+
+#[test]
+fn every_command_of_readme_and_guide_prints_what_they_show() {
+    let count: usize = pages(Path::new("")).par_iter().map(|page| held(page)).sum();
     assert!(count >= 40, "only {count} commands found");
 }
 

@@ -26,6 +26,8 @@ const FACTOR: f64 = 4.0;
 const FELT: f64 = 0.01;
 /// Margin below which a limit may be what keeps another from being held.
 const TIGHT: f64 = 1e-3;
+/// First step of the climb on full evaluations from where one on quick ones has ended, as a share of each range.
+const POLISHING: f64 = 1e-3;
 /// Evaluations of one climb.
 const EVALUATIONS: usize = 150;
 
@@ -168,8 +170,13 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
     let (lo, hi) = found.bounds();
     let begins = |name: &String| found.variables.iter().find(|v| v.name == *name).map(|v| v.start);
     let begun: Vec<f64> = found.searched.iter().filter_map(begins).collect();
-    let settings =
-        Settings { max_evaluations: EVALUATIONS, poll: false, first_radius: 0.1, ..Settings::default() };
+    let polishing = Settings {
+        max_evaluations: EVALUATIONS,
+        poll: false,
+        first_radius: POLISHING,
+        ..Settings::default()
+    };
+    let settings = Settings { first_radius: 0.1, finish: false, ..polishing.clone() };
     let let_go = |(number, key, unit, given, between): Asked| {
         let problem = match number {
             Number::Limit(_) => problem.clone(),
@@ -178,14 +185,25 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
                 problem.over(names.collect())
             }
         };
-        let one = LetGo { problem: &problem, number, given, range: between.1 - between.0 };
+        let quick = problem.quickly();
         let with = |list: &[f64], last: f64| -> Vec<f64> { list.iter().copied().chain([last]).collect() };
         let bounds = (with(&lo, between.0), with(&hi, between.1));
-        let climb = |from: &[f64]| {
+        let climb_on = |problem: &ClutchProblem, from: &[f64], settings: &Settings| {
+            let one = LetGo { problem, number, given, range: between.1 - between.0 };
             let run = SearchRun { follow: desk.follow(), ..SearchRun::default() };
-            maximise_least_margin(&one, from, &bounds.0, &bounds.1, &settings, run).ok()
+            maximise_least_margin(&one, from, &bounds.0, &bounds.1, settings, run).ok()
         };
         let free = |outcome: &Outcome| outcome.evaluation.violation() <= settings.violation_tolerance;
+        // On quick evaluations, and from where that ends on full ones, if they can matter there.
+        let climb = |from: &[f64]| {
+            let near = climb_on(&quick, from, &settings)?;
+            if near.evaluation.violation() > TIGHT {
+                return Some(near);
+            }
+            let mut outcome = climb_on(&problem, &near.x, &polishing)?;
+            outcome.evaluations += near.evaluations;
+            Some(outcome)
+        };
         let mut outcome = climb(&with(x, given))?;
         let mut evaluations = outcome.evaluations;
         // Where the way from there does not lead to it: from the given design, and from the limit wide open back towards it.
