@@ -28,7 +28,7 @@ pub struct LoadState {
     pub alpha_max_rad: f64,
     /// tan omega at first contact.
     pub first_tan_omega: f64,
-    /// Whether rows that count over all states on the way to a torque look at its ends alone: see [`ends_decide`].
+    /// Whether rows that count over all states on the way to a torque look at its ends alone: see [`LoadRows::ends_decide`].
     pub ends_alone: bool,
 }
 
@@ -107,20 +107,37 @@ impl Reached {
     }
 }
 
-pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<Margin> {
+/// Margins of a load state.
+#[derive(Debug, Clone)]
+pub struct LoadRows {
+    /// The rows.
+    pub rows: Vec<Margin>,
+    /// Whether none that counts over all states on the way to a torque has its worst between no load and that torque: then none has in
+    /// the state of a neighbour either that differs by next to nothing.
+    pub ends_decide: bool,
+}
+
+pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> LoadRows {
+    let mut ends_decide = true;
     let case = LoadCase { design, limits, state };
     let reached = |when: When| when.torque_nm(limits).map(|torque_nm| Reached::new(&case, torque_nm));
     let (nominal, peak) = (reached(When::Nominal), reached(When::Peak));
-    let row = |limit: &&'static Limit| match limit.when {
-        When::Nominal => loaded_row(&case, limit, nominal.as_ref()?),
-        When::Peak => loaded_row(&case, limit, peak.as_ref()?),
+    let mut row = |limit: &&'static Limit| match limit.when {
+        When::Nominal => loaded_row(&case, limit, nominal.as_ref()?, &mut ends_decide),
+        When::Peak => loaded_row(&case, limit, peak.as_ref()?, &mut ends_decide),
         _ => unloaded_row(&case, limit),
     };
-    LIMITS.iter().filter_map(row).collect()
+    let rows = LIMITS.iter().filter_map(&mut row).collect();
+    LoadRows { rows, ends_decide }
 }
 
-/// The row of a limit that is held at a torque.
-fn loaded_row(case: &LoadCase, limit: &'static Limit, reached: &Reached) -> Option<Margin> {
+/// The row of a limit that is held at a torque; `ends_decide` becomes false where a state on the way there is the worst.
+fn loaded_row(
+    case: &LoadCase,
+    limit: &'static Limit,
+    reached: &Reached,
+    ends_decide: &mut bool,
+) -> Option<Margin> {
     let LoadCase { design, limits, state } = *case;
     let Reached { torque_nm, end_nm, p, ref below } = *reached;
     let name = (limit.name)(limits);
@@ -135,13 +152,16 @@ fn loaded_row(case: &LoadCase, limit: &'static Limit, reached: &Reached) -> Opti
         }
         Of::Neighbours => {
             // Clearance itself, relative to the sprag's height: smooth through contact.
-            let gap_m = clearance_up_to_m(design, state, &p, below)?;
+            let at_ends_m = least_clearance_m(design, state, &[StaticPoint::UNLOADED, p])?;
+            let gap_m = least_clearance_m(design, state, below).map_or(at_ends_m, |m| at_ends_m.min(m));
+            *ends_decide &= gap_m == at_ends_m;
             let height_m = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
             Some(Margin { reference: height_m, ..reached.row(limit, name, 0.0, gap_m) })
         }
         _ => {
             let (allowed, required) = limit.allowed(design, limits)?;
             let value = limit.largest(case, &p, below)?;
+            *ends_decide &= below.is_empty() || limit.largest(case, &p, &[]) == Some(value);
             let name = limit.name_at(case, required, &p);
             Some(Margin { required, ..reached.row(limit, &name, value, allowed) })
         }
@@ -173,27 +193,6 @@ fn unloaded_row(case: &LoadCase, limit: &'static Limit) -> Option<Margin> {
 /// junctions, which divide the curve into a few pieces.
 const LOOKS: usize = 24;
 
-/// Whether none of the rows that count over all states on the way to a torque has its worst between no load and that torque:
-/// then none has in the state of a neighbour either that differs by next to nothing.
-pub fn ends_decide(design: &Design, limits: &Limits, state: &LoadState) -> bool {
-    let case = LoadCase { design, limits, state };
-    let decide = |when: When| {
-        let Some(torque_nm) = when.torque_nm(limits) else { return true };
-        let Reached { p, below, .. } = Reached::new(&case, torque_nm);
-        LIMITS.iter().filter(|limit| limit.when == when).all(|limit| match limit.of {
-            Of::Neighbours => {
-                let up_to = |below| clearance_up_to_m(design, state, &p, below);
-                up_to(&below) == up_to(&[])
-            }
-            Of::Sprag { below_torque: Some(_), .. } => {
-                limit.largest(&case, &p, &below) == limit.largest(&case, &p, &[])
-            }
-            _ => true,
-        })
-    };
-    decide(When::Nominal) && decide(When::Peak)
-}
-
 /// States below `peak`, rising.
 fn below(state: &LoadState, peak: &StaticPoint) -> Vec<StaticPoint> {
     if state.ends_alone {
@@ -213,15 +212,9 @@ pub(super) fn clearance_at_m(design: &Design, state: &LoadState, p: &StaticPoint
     Some(clearance_m(outline, oc_e, rotation, design.clutch.sprags.count))
 }
 
-/// The smallest from no load over the states `below` to `peak`.
-fn clearance_up_to_m(
-    design: &Design,
-    state: &LoadState,
-    peak: &StaticPoint,
-    below: &[StaticPoint],
-) -> Option<f64> {
-    let all = [&StaticPoint::UNLOADED, peak].into_iter().chain(below);
-    all.map(|p| clearance_at_m(design, state, p)).reduce(|a, b| Some(a?.min(b?)))?
+/// The smallest over `states`; `None` without flanks, or without states.
+fn least_clearance_m(design: &Design, state: &LoadState, states: &[StaticPoint]) -> Option<f64> {
+    states.iter().map(|p| clearance_at_m(design, state, p)).reduce(|a, b| Some(a?.min(b?)))?
 }
 
 /// The torque, or one a hair below the curve's end where that comes first.
