@@ -52,12 +52,26 @@ pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
 /// # Errors
 /// [`NoMargins`].
 pub fn load_state_at(design: &Design, effort: Effort) -> Result<LoadState, NoMargins> {
-    let (profile, curve) = curve_at_rest(design, effort)?;
+    state_of(design, curve_at_rest(design, effort, None)?, AtSpeeds::default())
+}
+
+/// The same next to `like`.
+///
+/// # Errors
+/// [`NoMargins`].
+pub fn load_state_beside(design: &Design, effort: Effort, like: &LoadState) -> Result<LoadState, NoMargins> {
+    state_of(design, curve_at_rest(design, effort, Some(&like.curve))?, like.at_speeds.beside())
+}
+
+fn state_of(
+    design: &Design,
+    (profile, curve): (Profile, WedgeCurve),
+    at_speeds: AtSpeeds,
+) -> Result<LoadState, NoMargins> {
     let flanks = design.clutch.sprags.flanks;
     let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
     let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
-    let at_speeds = AtSpeeds::default();
     Ok(LoadState { profile, outline, curve, at_speeds, alpha_max_rad, first_tan_omega, ends_alone: false })
 }
 

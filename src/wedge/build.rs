@@ -32,7 +32,7 @@ impl WedgeCurve {
         inner_curvature: InnerCurvature,
     ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), inner_curvature).map_err(NoCurve::NoElastic)?;
-        Self::march(statics, exponent(clutch), speed_rad_s, None, Effort::Full)
+        Self::march(statics, exponent(clutch), speed_rad_s, None, Effort::Full, None)
     }
 
     /// As [`Self::build`], without the arcs after the one that carries `reach_nm` (N m), if that is given: the
@@ -60,27 +60,59 @@ impl WedgeCurve {
         reach_nm: Option<f64>,
         effort: Effort,
     ) -> Result<Self, NoCurve> {
+        Self::build_like(clutch, profile, speed_rad_s, reach_nm, effort, None)
+    }
+
+    /// The whole curve at rest of a clutch next to that of `like`: its arcs end next to those. To the first order what
+    /// [`Self::build_reaching_at`] builds.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_beside(
+        clutch: &Clutch,
+        profile: &Profile,
+        effort: Effort,
+        like: &Self,
+    ) -> Result<Self, NoCurve> {
+        Self::build_like(clutch, profile, 0.0, None, effort, Some(like))
+    }
+
+    fn build_like(
+        clutch: &Clutch,
+        profile: &Profile,
+        speed_rad_s: f64,
+        reach_nm: Option<f64>,
+        effort: Effort,
+        like: Option<&Self>,
+    ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = statics.map_err(NoCurve::NoElastic)?;
         let q = exponent(clutch);
         if effort == Effort::Full {
-            return Self::march(statics, q, speed_rad_s, reach_nm, effort);
+            return Self::march(statics, q, speed_rad_s, reach_nm, effort, like);
         }
         let full = statics.clone();
         statics.effort = effort;
         statics.elastic = statics.elastic.quickly();
-        match Self::march(statics, q, speed_rad_s, reach_nm, effort) {
+        match Self::march(statics, q, speed_rad_s, reach_nm, effort, like) {
             Ok(quick) if quick.is_trusted() => Ok(quick),
             // Or there is none: the full one decides.
-            _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full),
+            _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full, like),
         }
     }
 
     /// The curve of the same clutch at mean speed `speed_rad_s`, whether or not it [`Self::is_trusted`], at the effort of this one, whose
-    /// elastic laws and bodies stand already; `None`: that is to be asked.
-    pub(super) fn marched(&self, speed_rad_s: f64, reach_nm: Option<f64>, effort: Effort) -> Option<Self> {
+    /// elastic laws and bodies stand already; `None`: that is to be asked. `like`: that of a clutch next to it.
+    pub(super) fn marched(
+        &self,
+        speed_rad_s: f64,
+        reach_nm: Option<f64>,
+        effort: Effort,
+        like: Option<&Self>,
+    ) -> Option<Self> {
         let same = self.effort == effort;
-        same.then(|| Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort))?.ok()
+        let march = || Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort, like);
+        same.then(march)?.ok()
     }
 
     /// Whether it may be taken as it is: a quick one that varies more than a few panels follow may not.
@@ -105,7 +137,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         (statics.offset_m, statics.carrier) = (offset_m, carrier);
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
     /// This curve, its speed and effort kept, of a sprag that measures `size_m` (m) more across its contacts, half of it at each. The
@@ -119,7 +151,7 @@ impl WedgeCurve {
         }
         let mut statics = self.statics.clone();
         statics.set_apart(SpragDeviation { size_m, ..SpragDeviation::default() });
-        Self::march(statics, self.exponent, self.speed_rad_s, None, self.effort)
+        Self::march(statics, self.exponent, self.speed_rad_s, None, self.effort, None)
     }
 
     /// The curve at rest of sprags whose surfaces have changed by so little that their bodies still give as those of `like` do.
@@ -130,7 +162,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.bulk.clone_from(&like.statics.bulk);
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).
@@ -143,7 +175,7 @@ impl WedgeCurve {
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = statics.elastic.local_only();
         statics.bulk = None;
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
     /// The curve at rest of a clutch whose bodies are layers of one linear element through half their length, as a deck for
@@ -155,16 +187,18 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = Elastic::with_layers(clutch, element_share).map_err(NoCurve::NoElastic)?;
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
-    /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`.
+    /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`. `like`: the curve of a clutch next to this one,
+    /// at the same speed.
     pub(super) fn march(
         statics: Statics,
         exponent: f64,
         speed_rad_s: f64,
         reach_nm: Option<f64>,
         effort: Effort,
+        like: Option<&Self>,
     ) -> Result<Self, NoCurve> {
         let profile = statics.profile.clone();
         let beta0 = profile.beta0_rad;
@@ -182,6 +216,7 @@ impl WedgeCurve {
                 .map_err(|_| NoCurve::NoFirstContact)?;
         }
         let alpha0 = touch.alpha.v;
+        let like = like.filter(|like| like.first == first && like.effort == effort);
         let mut arcs: Vec<ArcTable> = Vec::new();
         let (mut n_from, mut shift, mut windup_from) = (0.0, 0.0, 0.0);
         let mut end = EndReason::OffProfile;
@@ -198,13 +233,17 @@ impl WedgeCurve {
                     }
                 }
             }
-            let reach = arc_end(&statics, k, speed_rad_s, n_from, shift, profile.arcs[k].until_rad, effort);
+            let until = profile.arcs[k].until_rad;
+            let beside = like.and_then(|like| like.off_profile_n(k - first));
+            let reach = beside
+                .and_then(|near_n| arc_end_beside(&statics, k, speed_rad_s, shift, until, near_n))
+                .or_else(|| arc_end(&statics, k, speed_rad_s, n_from, shift, until, effort));
             let Some((n_until, reason)) = reach else {
                 end = EndReason::RollsOver;
                 break;
             };
             let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, exponent, effort }
-                .build(n_from, n_until, windup_from, k == first)
+                .build(n_from, n_until, windup_from, k == first, like.and_then(|like| like.arcs.get(k - first)))
                 .map_err(|_| NoCurve::NoConvergence)?;
             windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));
             arcs.push(arc);
@@ -222,6 +261,12 @@ impl WedgeCurve {
             return Err(NoCurve::NoFirstContact);
         }
         Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, over: Vec::new(), end, touch })
+    }
+
+    /// N at which its arc `k` ends by the turn of its contact, N; `None` where there is no such arc, or torque ends it.
+    fn off_profile_n(&self, k: usize) -> Option<f64> {
+        let rolls_over = self.end == EndReason::RollsOver && k + 1 == self.arcs.len();
+        self.arcs.get(k).filter(|_| !rolls_over).map(|arc| arc.n_until)
     }
 
     /// Whether one of its arcs carries `reach_nm` (N m).
@@ -281,6 +326,37 @@ impl Effort {
 /// q of s = (alpha - alpha_0)^(1/q): 9 for the power of the roller law, 10 for logarithmic laws.
 fn exponent(clutch: &Clutch) -> f64 {
     if clutch.contact.facts().knows_radius { 10.0 } else { 9.0 }
+}
+
+/// Steps of Newton to the end of an arc, the largest of them, relative, and the one after which the next is less than rounding.
+const STEPS_TO_END: usize = 4;
+const BESIDE: f64 = 1e-3;
+const ARRIVED: f64 = 1e-9;
+
+/// As [`arc_end`] where the turn of the contact comes to `until` (rad) next to `near_n` (N); `None`: that is to be asked.
+fn arc_end_beside(
+    statics: &Statics,
+    k: usize,
+    speed: f64,
+    shift: f64,
+    until: f64,
+    near_n: f64,
+) -> Option<(f64, Option<EndReason>)> {
+    let last = k + 1 == statics.profile.arcs.len();
+    let mut n = near_n;
+    for _ in 0..STEPS_TO_END {
+        let c = statics.closure(k, n, speed, shift).ok()?;
+        let left = until - c.turn_rad(statics.profile.beta0_rad);
+        let step = left / (c.rotation.d - c.beta.d);
+        n += step;
+        if c.torque_nm(1).d <= 0.0 || !((n - near_n).abs() < BESIDE * near_n) {
+            return None;
+        }
+        if step.abs() < ARRIVED * n {
+            return Some((n, last.then_some(EndReason::OffProfile)));
+        }
+    }
+    None
 }
 
 /// N at which arc `k` ends and, where that ends the curve, why. `None`: nothing of this arc can be used.

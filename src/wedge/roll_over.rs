@@ -267,6 +267,7 @@ impl Way {
             n_until: *n_to,
             torque_until_nm: end.torque_nm(self.seats[0][0][0].count).v,
             shift: seat.shift,
+            edges: Vec::new(),
             lanes,
             table,
         })
@@ -303,7 +304,7 @@ impl WedgeCurve {
     pub fn beyond(&self, brink: Option<&Brink>) -> Option<RollOver> {
         let mut curve = match self.end {
             EndReason::NotBuilt => {
-                Self::march(self.statics.clone(), self.exponent, self.speed_rad_s, None, self.effort).ok()?
+                Self::march(self.statics.clone(), self.exponent, self.speed_rad_s, None, self.effort, None).ok()?
             }
             _ => self.clone(),
         };

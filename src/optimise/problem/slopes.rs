@@ -5,7 +5,8 @@ use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::{Design, Link};
 use crate::fidelity;
 use crate::margin::{
-    LoadRows, LoadState, Margin, SceneDemand, load_state_at, scene_margins, scene_rows, unknown_scene_rows,
+    LoadRows, LoadState, Margin, SceneDemand, load_state_at, load_state_beside, scene_margins, scene_rows,
+    unknown_scene_rows,
 };
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::scenario::{AtRest, Prepared, RollingTrack, demand_retraced};
@@ -135,8 +136,11 @@ impl ClutchProblem {
     /// The same at a neighbour `x` of it.
     fn beside(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
         let ends_alone = tracks.ends_decide();
-        let state = |_: usize, design: &Design| {
-            let state = load_state_at(design, self.effort())?;
+        let state = |k: usize, design: &Design| {
+            let state = match tracks.states.get(&k) {
+                Some(like) => load_state_beside(design, self.effort(), like),
+                None => load_state_at(design, self.effort()),
+            }?;
             Ok(Arc::new(LoadState { ends_alone, ..state }))
         };
         let loaded = |_: usize, design: &Design, state: &LoadState| self.loaded(design, state).rows;
