@@ -28,8 +28,8 @@ pub struct LoadState {
     pub alpha_max_rad: f64,
     /// tan omega at first contact.
     pub first_tan_omega: f64,
-    /// Whether rows that count over all states on the way to a torque look at its ends alone: see [`LoadRows::ends_decide`].
-    pub ends_alone: bool,
+    /// The looks at which rows see states on the way to a torque, see [`LoadRows::deciding`]; `None`: all.
+    pub looks: Option<Vec<usize>>,
 }
 
 impl LoadState {
@@ -72,7 +72,7 @@ fn state_of(
     let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
     let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
-    Ok(LoadState { profile, outline, curve, at_speeds, alpha_max_rad, first_tan_omega, ends_alone: false })
+    Ok(LoadState { profile, outline, curve, at_speeds, alpha_max_rad, first_tan_omega, looks: None })
 }
 
 /// A load state with what is asked of it.
@@ -99,7 +99,8 @@ struct Reached {
     torque_nm: f64,
     end_nm: f64,
     p: StaticPoint,
-    /// States below it, rising.
+    /// Numbers of the looks at states below it, and these, rising.
+    looks: Vec<usize>,
     below: Vec<StaticPoint>,
 }
 
@@ -107,7 +108,8 @@ impl Reached {
     fn new(case: &LoadCase, torque_nm: f64) -> Self {
         let end_nm = case.state.curve.end_torque_nm();
         let p = at(&case.state.curve, carried(torque_nm, end_nm));
-        Self { torque_nm, end_nm, p, below: below(case.state, &p) }
+        let (looks, below) = below(case.state, &p).unzip();
+        Self { torque_nm, end_nm, p, looks, below }
     }
 
     /// A demand at this state.
@@ -126,34 +128,34 @@ impl Reached {
 pub struct LoadRows {
     /// The rows.
     pub rows: Vec<Margin>,
-    /// Whether none that counts over all states on the way to a torque has its worst between no load and that torque: then none has in
-    /// the state of a neighbour either that differs by next to nothing.
-    pub ends_decide: bool,
+    /// Looks at states between no load and a torque at which a row that counts over all of them has its worst: it has it there in the
+    /// state of a neighbour too that differs by next to nothing.
+    pub deciding: Vec<usize>,
 }
 
 pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> LoadRows {
-    let mut ends_decide = true;
+    let mut deciding = Vec::new();
     let case = LoadCase { design, limits, state };
     let reached = |when: When| when.torque_nm(limits).map(|torque_nm| Reached::new(&case, torque_nm));
     let (nominal, peak) = (reached(When::Nominal), reached(When::Peak));
     let mut row = |limit: &&'static Limit| match limit.when {
-        When::Nominal => loaded_row(&case, limit, nominal.as_ref()?, &mut ends_decide),
-        When::Peak => loaded_row(&case, limit, peak.as_ref()?, &mut ends_decide),
+        When::Nominal => loaded_row(&case, limit, nominal.as_ref()?, &mut deciding),
+        When::Peak => loaded_row(&case, limit, peak.as_ref()?, &mut deciding),
         _ => unloaded_row(&case, limit),
     };
     let rows = LIMITS.iter().filter_map(&mut row).collect();
-    LoadRows { rows, ends_decide }
+    LoadRows { rows, deciding }
 }
 
-/// The row of a limit that is held at a torque; `ends_decide` becomes false where a state on the way there is the worst.
+/// The row of a limit that is held at a torque; where a state on the way there is the worst, its look goes to `deciding`.
 fn loaded_row(
     case: &LoadCase,
     limit: &'static Limit,
     reached: &Reached,
-    ends_decide: &mut bool,
+    deciding: &mut Vec<usize>,
 ) -> Option<Margin> {
     let LoadCase { design, limits, state } = *case;
-    let Reached { torque_nm, end_nm, p, ref below } = *reached;
+    let Reached { torque_nm, end_nm, p, ref looks, ref below } = *reached;
     let name = (limit.name)(limits);
     match limit.of {
         Of::RollOver => Some(reached.row(limit, name, torque_nm, state.curve.roll_over_torque_nm())),
@@ -166,16 +168,23 @@ fn loaded_row(
         }
         Of::Neighbours => {
             // Clearance itself, relative to the sprag's height: smooth through contact.
-            let at_ends_m = least_clearance_m(design, state, &[StaticPoint::UNLOADED, p])?;
-            let gap_m = least_clearance_m(design, state, below).map_or(at_ends_m, |m| at_ends_m.min(m));
-            *ends_decide &= gap_m == at_ends_m;
+            let clearance_m = |p: &StaticPoint| clearance_at_m(design, state, p);
+            let at_ends_m = clearance_m(&StaticPoint::UNLOADED)?.min(clearance_m(&p)?);
+            let on_the_way_m: Vec<f64> = below.iter().filter_map(clearance_m).collect();
+            let gap_m = on_the_way_m.iter().copied().fold(at_ends_m, f64::min);
+            deciding.extend(
+                looks.iter().zip(on_the_way_m).find(|(_, m)| *m < at_ends_m && *m == gap_m).map(|(i, _)| i),
+            );
             let height_m = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
             Some(Margin { reference: height_m, ..reached.row(limit, name, 0.0, gap_m) })
         }
         _ => {
             let (allowed, required) = limit.allowed(design, limits)?;
             let value = limit.largest(case, &p, below)?;
-            *ends_decide &= below.is_empty() || limit.largest(case, &p, &[]) == Some(value);
+            if !below.is_empty() && limit.largest(case, &p, &[]) != Some(value) {
+                let is_largest = |at: &StaticPoint| limit.largest(case, &p, &[*at]) == Some(value);
+                deciding.extend(looks.iter().zip(below).find(|(_, at)| is_largest(at)).map(|(i, _)| i));
+            }
             let name = limit.name_at(case, required, &p);
             Some(Margin { required, ..reached.row(limit, &name, value, allowed) })
         }
@@ -207,13 +216,12 @@ fn unloaded_row(case: &LoadCase, limit: &'static Limit) -> Option<Margin> {
 /// junctions, which divide the curve into a few pieces.
 const LOOKS: usize = 24;
 
-/// States below `peak`, rising.
-fn below(state: &LoadState, peak: &StaticPoint) -> Vec<StaticPoint> {
-    if state.ends_alone {
-        return Vec::new();
-    }
+/// Numbers of the looks at states below `peak`, and these, rising.
+fn below(state: &LoadState, peak: &StaticPoint) -> impl Iterator<Item = (usize, StaticPoint)> {
     let last_n = peak.normal_inner_n;
-    (1..LOOKS).filter_map(|i| state.curve.at_normal(last_n * i as f64 / LOOKS as f64)).collect()
+    let counts = move |i: &usize| state.looks.as_ref().is_none_or(|looks| looks.contains(i));
+    let at = move |i: usize| Some((i, state.curve.at_normal(last_n * i as f64 / LOOKS as f64)?));
+    (1..LOOKS).filter(counts).filter_map(at)
 }
 
 /// Clearance between neighbouring sprags in a static state, m; `None` without flanks.
@@ -224,11 +232,6 @@ pub(super) fn clearance_at_m(design: &Design, state: &LoadState, p: &StaticPoint
         _ => (state.profile.outer_centre_distance_m, 0.0),
     };
     Some(clearance_m(outline, oc_e, rotation, design.clutch.sprags.count))
-}
-
-/// The smallest over `states`; `None` without flanks, or without states.
-fn least_clearance_m(design: &Design, state: &LoadState, states: &[StaticPoint]) -> Option<f64> {
-    states.iter().map(|p| clearance_at_m(design, state, p)).reduce(|a, b| Some(a?.min(b?)))?
 }
 
 /// The torque, or one a hair below the curve's end where that comes first.

@@ -351,7 +351,11 @@ impl ClutchProblem {
     /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
     pub fn assess(&self, design: &Design) -> Result<Assessment, NoEvaluation> {
         let loaded = |_, design: &Design, state: &LoadState| self.loaded(design, state).rows;
-        self.assess_with(design, &Way { state: &self.state(), loaded: &loaded, scene: &self.rows_of_scene() }, 0)
+        self.assess_with(
+            design,
+            &Way { state: &self.state(), loaded: &loaded, scene: &self.rows_of_scene() },
+            0,
+        )
     }
 
     /// Load states built at the problem's effort.

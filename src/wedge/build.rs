@@ -11,6 +11,7 @@ use crate::clutch::{Carrier, Clutch};
 use crate::contact::element_share;
 use crate::numeric::root;
 use crate::profile::Profile;
+use std::sync::OnceLock;
 
 impl WedgeCurve {
     /// Build the curve of `clutch` at mean speed `speed_rad_s`.
@@ -77,7 +78,8 @@ impl WedgeCurve {
         Self::build_like(clutch, profile, 0.0, None, effort, Some(like))
     }
 
-    fn build_like(
+    /// The same; `like`: that of a clutch next to it, at the same speed, whose effort this takes.
+    pub(super) fn build_like(
         clutch: &Clutch,
         profile: &Profile,
         speed_rad_s: f64,
@@ -88,6 +90,7 @@ impl WedgeCurve {
         let statics = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = statics.map_err(NoCurve::NoElastic)?;
         let q = exponent(clutch);
+        let effort = like.map_or(effort, |like| like.effort);
         if effort == Effort::Full {
             return Self::march(statics, q, speed_rad_s, reach_nm, effort, like);
         }
@@ -95,29 +98,26 @@ impl WedgeCurve {
         statics.effort = effort;
         statics.elastic = statics.elastic.quickly();
         match Self::march(statics, q, speed_rad_s, reach_nm, effort, like) {
-            Ok(quick) if quick.is_trusted() => Ok(quick),
+            Ok(quick) if like.is_some() || quick.leaves_out_less_than(TRUSTED, None) => Ok(quick),
             // Or there is none: the full one decides.
             _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full, like),
         }
     }
 
-    /// The curve of the same clutch at mean speed `speed_rad_s`, whether or not it [`Self::is_trusted`], at the effort of this one, whose
-    /// elastic laws and bodies stand already; `None`: that is to be asked. `like`: that of a clutch next to it.
+    /// The curve of the same clutch at mean speed `speed_rad_s` at the effort of this one, whose elastic laws and bodies stand already,
+    /// whatever it leaves out. `like`: that of a clutch next to it.
     pub(super) fn marched(
         &self,
         speed_rad_s: f64,
         reach_nm: Option<f64>,
-        effort: Effort,
         like: Option<&Self>,
     ) -> Option<Self> {
-        let same = self.effort == effort;
-        let march = || Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort, like);
-        same.then(march)?.ok()
+        Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, self.effort, like).ok()
     }
 
-    /// Whether it may be taken as it is: a quick one that varies more than a few panels follow may not.
-    pub(super) fn is_trusted(&self) -> bool {
-        self.effort == Effort::Full || self.truncation() < TRUSTED
+    /// Whether up to `reach_nm` (N m) it leaves out less than `part`: a quick one that varies more than a few panels follow does not.
+    pub(super) fn leaves_out_less_than(&self, part: f64, reach_nm: Option<f64>) -> bool {
+        self.effort == Effort::Full || self.truncation_of(self.arcs_to(reach_nm)) < part
     }
 
     /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
@@ -234,16 +234,25 @@ impl WedgeCurve {
                 }
             }
             let until = profile.arcs[k].until_rad;
-            let beside = like.and_then(|like| like.off_profile_n(k - first));
-            let reach = beside
-                .and_then(|near_n| arc_end_beside(&statics, k, speed_rad_s, shift, until, near_n))
+            let beside = |like: &Self| {
+                let moved_rad = until - like.statics.profile.arcs[k].until_rad;
+                arc_end_beside(&statics, k, speed_rad_s, shift, like.off_profile(k - first)?, moved_rad)
+            };
+            let reach = like
+                .and_then(beside)
                 .or_else(|| arc_end(&statics, k, speed_rad_s, n_from, shift, until, effort));
             let Some((n_until, reason)) = reach else {
                 end = EndReason::RollsOver;
                 break;
             };
             let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, exponent, effort }
-                .build(n_from, n_until, windup_from, k == first, like.and_then(|like| like.arcs.get(k - first)))
+                .build(
+                    n_from,
+                    n_until,
+                    windup_from,
+                    k == first,
+                    like.and_then(|like| like.arcs.get(k - first)),
+                )
                 .map_err(|_| NoCurve::NoConvergence)?;
             windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));
             arcs.push(arc);
@@ -260,13 +269,28 @@ impl WedgeCurve {
         if arcs.is_empty() {
             return Err(NoCurve::NoFirstContact);
         }
-        Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, over: Vec::new(), end, touch })
+        let near_peak_n = like.and_then(|like| *like.peak_n.get()?);
+        let (over, peak_n) = (Vec::new(), OnceLock::new());
+        Ok(Self {
+            statics,
+            speed_rad_s,
+            exponent,
+            effort,
+            alpha0,
+            first,
+            arcs,
+            over,
+            end,
+            touch,
+            peak_n,
+            near_peak_n,
+        })
     }
 
-    /// N at which its arc `k` ends by the turn of its contact, N; `None` where there is no such arc, or torque ends it.
-    fn off_profile_n(&self, k: usize) -> Option<f64> {
+    /// Its arc `k`, where it ends by the turn of its contact; `None` where there is no such arc, or torque ends it.
+    fn off_profile(&self, k: usize) -> Option<&ArcTable> {
         let rolls_over = self.end == EndReason::RollsOver && k + 1 == self.arcs.len();
-        self.arcs.get(k).filter(|_| !rolls_over).map(|arc| arc.n_until)
+        self.arcs.get(k).filter(|_| !rolls_over)
     }
 
     /// Whether one of its arcs carries `reach_nm` (N m).
@@ -277,12 +301,20 @@ impl WedgeCurve {
     /// This curve without the arcs after the one that carries `reach_nm` (N m): what [`Self::build_reaching`] builds, for who has
     /// the whole curve already.
     pub fn reaching(&self, reach_nm: Option<f64>) -> Self {
-        let carries = |a: &ArcTable| reach_nm.is_some_and(|reach| a.torque_until_nm > reach);
+        let arcs = self.arcs_to(reach_nm);
         // The last arc ends for a reason of its own.
-        match self.arcs.iter().position(carries).filter(|k| k + 1 < self.arcs.len()) {
-            Some(k) => Self { arcs: self.arcs[..=k].to_vec(), end: EndReason::NotBuilt, ..self.clone() },
-            None => self.clone(),
+        if arcs.len() == self.arcs.len() {
+            return self.clone();
         }
+        let (arcs, end) = (arcs.to_vec(), EndReason::NotBuilt);
+        Self { arcs, end, peak_n: OnceLock::new(), near_peak_n: None, ..self.clone() }
+    }
+
+    /// Its arcs up to the one that carries `reach_nm` (N m).
+    fn arcs_to(&self, reach_nm: Option<f64>) -> &[ArcTable] {
+        let carries = |a: &ArcTable| reach_nm.is_some_and(|reach| a.torque_until_nm > reach);
+        let count = self.arcs.iter().position(carries).map_or(self.arcs.len(), |k| k + 1);
+        &self.arcs[..count]
     }
 }
 
@@ -333,23 +365,24 @@ const STEPS_TO_END: usize = 4;
 const BESIDE: f64 = 1e-3;
 const ARRIVED: f64 = 1e-9;
 
-/// As [`arc_end`] where the turn of the contact comes to `until` (rad) next to `near_n` (N); `None`: that is to be asked.
+/// As [`arc_end`] next to the arc `near`, from whose end the turn of the contact goes on by `moved_rad` (rad); `None`: that is to be
+/// asked.
 fn arc_end_beside(
     statics: &Statics,
     k: usize,
     speed: f64,
     shift: f64,
-    until: f64,
-    near_n: f64,
+    near: &ArcTable,
+    moved_rad: f64,
 ) -> Option<(f64, Option<EndReason>)> {
     let last = k + 1 == statics.profile.arcs.len();
-    let mut n = near_n;
+    let mut n = near.n_until;
     for _ in 0..STEPS_TO_END {
         let c = statics.closure(k, n, speed, shift).ok()?;
-        let left = until - c.turn_rad(statics.profile.beta0_rad);
+        let left = moved_rad + (near.turn_until_rad - c.turn_rad(statics.profile.beta0_rad));
         let step = left / (c.rotation.d - c.beta.d);
         n += step;
-        if c.torque_nm(1).d <= 0.0 || !((n - near_n).abs() < BESIDE * near_n) {
+        if c.torque_nm(1).d <= 0.0 || !((n - near.n_until).abs() < BESIDE * near.n_until) {
             return None;
         }
         if step.abs() < ARRIVED * n {

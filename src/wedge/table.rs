@@ -63,6 +63,8 @@ pub(super) struct ArcTable {
     pub(super) alpha_until: f64,
     pub(super) n_from: f64,
     pub(super) n_until: f64,
+    /// Turn of the contact at n_until, rad.
+    pub(super) turn_until_rad: f64,
     /// Torque at n_until, N m.
     pub(super) torque_until_nm: f64,
     pub(super) shift: f64,
@@ -238,7 +240,18 @@ impl ArcBuilder<'_> {
         };
         let table = Pieces::of(&lanes, &lanes.derivative([2, 3]), &windup);
         let torque_until_nm = end.torque_nm(self.statics.count).v;
-        Ok(ArcTable { alpha_until, n_from, n_until, torque_until_nm, shift: self.shift, edges, lanes, table })
+        let turn_until_rad = end.turn_rad(self.statics.profile.beta0_rad);
+        Ok(ArcTable {
+            alpha_until,
+            n_from,
+            n_until,
+            turn_until_rad,
+            torque_until_nm,
+            shift: self.shift,
+            edges,
+            lanes,
+            table,
+        })
     }
 
     /// Arc 1, lanes over s. alpha - alpha_0 = 10 int_0^z (z alpha_N) z^8 dz with N = z^10 keeps relative

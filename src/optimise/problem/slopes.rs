@@ -9,7 +9,7 @@ use crate::margin::{
     unknown_scene_rows,
 };
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
-use crate::scenario::{AtRest, Prepared, RollingTrack, demand_retraced};
+use crate::scenario::{AtRest, Prepared, RollingTrack, demand_read_again, demand_retraced};
 use rayon::prelude::*;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -62,13 +62,6 @@ impl Clone for Recent {
     }
 }
 
-impl Tracks {
-    /// Whether [`LoadRows::ends_decide`] at every corner.
-    fn ends_decide(&self) -> bool {
-        self.loaded.values().all(|found| found.ends_decide)
-    }
-}
-
 impl ClutchProblem {
     /// The rows of a scene as a neighbour of the one whose track is given. `as_it_was`: the neighbour is that scene itself.
     fn scene_beside(
@@ -79,18 +72,22 @@ impl ClutchProblem {
         as_it_was: bool,
     ) -> Vec<Margin> {
         let moves = !matches!(scenario.kind, ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. });
-        let unknown = || unknown_scene_rows(scenario, &self.limits);
-        let retraced = |prepared: &Prepared| match demand_retraced(prepared, track.map(|(track, _)| track)) {
+        let rows = |prepared: &Prepared, found| match found {
             Some(found) => {
                 scene_rows(scenario, &SceneDemand::of(scenario, prepared, found), &self.limits, true)
             }
-            None => unknown(),
+            None => unknown_scene_rows(scenario, &self.limits),
         };
         match track {
-            None if moves => unknown(),
-            Some((_, prepared)) if as_it_was => retraced(prepared),
+            None if moves => unknown_scene_rows(scenario, &self.limits),
+            // Slopes are those of quick curves, whatever the run took.
+            Some((track, prepared)) if as_it_was && prepared.model.curve.effort() == self.effort() => {
+                rows(prepared, demand_read_again(prepared, track))
+            }
             _ => match fidelity::plan_at(scenario, Some(known), self.effort()) {
-                Ok((_, prepared)) => retraced(&prepared),
+                Ok((_, prepared)) => {
+                    rows(&prepared, demand_retraced(&prepared, track.map(|(track, _)| track)))
+                }
                 Err(_) => scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings),
             },
         }
@@ -125,8 +122,10 @@ impl ClutchProblem {
     /// The outputs of the evaluation that `tracks` is of, at its own `x`, with every scene as a neighbour has it.
     fn here(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
         let build = self.state();
-        let state =
-            |k: usize, design: &Design| tracks.states.get(&k).map_or_else(|| build(k, design), |s| Ok(s.clone()));
+        let state = |k: usize, design: &Design| {
+            let known = tracks.states.get(&k).cloned().map_or_else(|| build(k, design), Ok)?;
+            Ok(Arc::new(LoadState { at_speeds: known.at_speeds.for_slopes(), ..(*known).clone() }))
+        };
         let loaded = |k: usize, design: &Design, state: &LoadState| {
             tracks.loaded.get(&k).map_or_else(|| self.loaded(design, state).rows, |found| found.rows.clone())
         };
@@ -135,13 +134,13 @@ impl ClutchProblem {
 
     /// The same at a neighbour `x` of it.
     fn beside(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
-        let ends_alone = tracks.ends_decide();
         let state = |k: usize, design: &Design| {
             let state = match tracks.states.get(&k) {
                 Some(like) => load_state_beside(design, self.effort(), like),
                 None => load_state_at(design, self.effort()),
             }?;
-            Ok(Arc::new(LoadState { ends_alone, ..state }))
+            let looks = tracks.loaded.get(&k).map(|found| found.deciding.clone());
+            Ok(Arc::new(LoadState { looks, ..state }))
         };
         let loaded = |_: usize, design: &Design, state: &LoadState| self.loaded(design, state).rows;
         self.retraced(x, tracks, (&state, &loaded), false)
