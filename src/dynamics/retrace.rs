@@ -3,9 +3,9 @@
 //! The neighbour takes the steps of the run, whatever their error (internal differentiation; Bock, *Numerical treatment of inverse
 //! problems in chemical reaction kinetics*, 1981), so that nothing in it chooses, and the difference of two such runs is the
 //! derivative of what was integrated, to the rounding of the difference. A step that ended at a junction ends at the
-//! neighbour's own, one that ended at a knot of the torque's course at that. A peak is a level place: by the envelope theorem the time at which it comes does not enter. It is read off a parabola
-//! through three figures about that time, at the ends of the run and at junctions off the state there. Nothing is integrated
-//! beyond the last peak.
+//! neighbour's own, one that ended at a knot of the torque's course at that. A peak is a level place: by the envelope theorem the time
+//! at which it comes does not enter. It is read off a parabola through three figures about that time, at the ends of the run and at
+//! junctions off the state there. Nothing is integrated beyond the last peak, and of the run itself only the steps that hold one.
 
 use super::events::FIGURES;
 use super::model::{Model, Place, State};

@@ -11,7 +11,7 @@ use crate::clutch::{Carrier, Clutch};
 use crate::contact::element_share;
 use crate::numeric::root;
 use crate::profile::Profile;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 impl WedgeCurve {
     /// Build the curve of `clutch` at mean speed `speed_rad_s`.
@@ -217,7 +217,7 @@ impl WedgeCurve {
         }
         let alpha0 = touch.alpha.v;
         let like = like.filter(|like| like.first == first && like.effort == effort);
-        let mut arcs: Vec<ArcTable> = Vec::new();
+        let mut arcs: Vec<Arc<ArcTable>> = Vec::new();
         let (mut n_from, mut shift, mut windup_from) = (0.0, 0.0, 0.0);
         let mut end = EndReason::OffProfile;
         for k in first..profile.arcs.len() {
@@ -245,17 +245,12 @@ impl WedgeCurve {
                 end = EndReason::RollsOver;
                 break;
             };
+            let like = like.and_then(|like| like.arcs.get(k - first)).map(AsRef::as_ref);
             let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, exponent, effort }
-                .build(
-                    n_from,
-                    n_until,
-                    windup_from,
-                    k == first,
-                    like.and_then(|like| like.arcs.get(k - first)),
-                )
+                .build(n_from, n_until, windup_from, k == first, like)
                 .map_err(|_| NoCurve::NoConvergence)?;
             windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));
-            arcs.push(arc);
+            arcs.push(Arc::new(arc));
             n_from = n_until;
             if let Some(reason) = reason {
                 end = reason;
@@ -288,7 +283,7 @@ impl WedgeCurve {
     }
 
     /// Its arc `k`, where it ends by the turn of its contact; `None` where there is no such arc, or torque ends it.
-    fn off_profile(&self, k: usize) -> Option<&ArcTable> {
+    fn off_profile(&self, k: usize) -> Option<&Arc<ArcTable>> {
         let rolls_over = self.end == EndReason::RollsOver && k + 1 == self.arcs.len();
         self.arcs.get(k).filter(|_| !rolls_over)
     }
@@ -311,8 +306,8 @@ impl WedgeCurve {
     }
 
     /// Its arcs up to the one that carries `reach_nm` (N m).
-    fn arcs_to(&self, reach_nm: Option<f64>) -> &[ArcTable] {
-        let carries = |a: &ArcTable| reach_nm.is_some_and(|reach| a.torque_until_nm > reach);
+    fn arcs_to(&self, reach_nm: Option<f64>) -> &[Arc<ArcTable>] {
+        let carries = |a: &Arc<ArcTable>| reach_nm.is_some_and(|reach| a.torque_until_nm > reach);
         let count = self.arcs.iter().position(carries).map_or(self.arcs.len(), |k| k + 1);
         &self.arcs[..count]
     }

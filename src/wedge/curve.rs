@@ -6,7 +6,7 @@ use super::elastic::NoElastic;
 use super::quick::lowest;
 use super::table::{ArcTable, levelled, point};
 use crate::numeric::{dual::Dual, root};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 named! {
     /// Why the curve ends.
@@ -66,7 +66,7 @@ pub struct WedgeCurve {
     pub(super) effort: Effort,
     pub(super) alpha0: f64,
     pub(super) first: usize,
-    pub(super) arcs: Vec<ArcTable>,
+    pub(super) arcs: Vec<Arc<ArcTable>>,
     /// What comes after its end ([`Self::beyond`]); mostly nothing. Only places see it: no torque, no force is looked for there.
     pub(super) over: Vec<ArcTable>,
     pub(super) end: EndReason,
@@ -169,7 +169,7 @@ impl WedgeCurve {
     }
 
     /// The same of `arcs`, its first ones.
-    pub(super) fn truncation_of(&self, arcs: &[ArcTable]) -> f64 {
+    pub(super) fn truncation_of(&self, arcs: &[Arc<ArcTable>]) -> f64 {
         let skip = |k: usize| match (k, self.effort) {
             (0, Effort::Full) => 2,
             (0, Effort::Search) => lowest(self.exponent),

@@ -14,8 +14,8 @@ use rayon::prelude::*;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
 
-/// What an evaluation stood on: by the number of the corner its load state and the rows of that, by that number and the name of the scene what that integrated
-/// and for which model.
+/// What an evaluation stood on: by the number of the corner its load state and the rows of that, by that number and the name of the
+/// scene what that integrated and for which model.
 #[derive(Debug, Default)]
 struct Tracks {
     states: HashMap<usize, Arc<LoadState>>,
@@ -146,7 +146,7 @@ impl ClutchProblem {
         self.retraced(x, tracks, (&state, &loaded), false)
     }
 
-    /// Outputs at `x` with load states and their rows as `statics` has them and every scene as the neighbour of the one in `tracks`; NaN where that has
+    /// Outputs at `x` with these load states and rows of them, and every scene as the neighbour of the one in `tracks`; NaN where that has
     /// none.
     fn retraced(
         &self,
