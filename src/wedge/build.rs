@@ -377,7 +377,8 @@ fn arc_end_beside(
         let left = moved_rad + (near.turn_until_rad - c.turn_rad(statics.profile.beta0_rad));
         let step = left / (c.rotation.d - c.beta.d);
         n += step;
-        if c.torque_nm(1).d <= 0.0 || !((n - near.n_until).abs() < BESIDE * near.n_until) {
+        let still_beside = (n - near.n_until).abs() < BESIDE * near.n_until;
+        if c.torque_nm(1).d <= 0.0 || !still_beside {
             return None;
         }
         if step.abs() < ARRIVED * n {
