@@ -50,7 +50,7 @@ pub use periodic::{NoOrbit, Orbit, Shooting, orbit};
 pub use published::{PublishedSettings, published};
 pub use repeat::Jump;
 pub use retrace::RollingTrack;
-pub use rolling::{Rolling, rolling, rolling_quickly, rolling_retraced, rolling_tracked};
+pub use rolling::{Rolling, rolling, rolling_quickly, rolling_read_again, rolling_retraced, rolling_tracked};
 pub use run::{
     Engaged, FastMotion, History, Hold, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
     run_while_it_sticks,

@@ -3,14 +3,14 @@
 //! The neighbour takes the steps of the run, whatever their error (internal differentiation; Bock, *Numerical treatment of inverse
 //! problems in chemical reaction kinetics*, 1981), so that nothing in it chooses, and the difference of two such runs is the
 //! derivative of what was integrated, to the rounding of the difference. A step that ended at a junction ends at the
-//! neighbour's own, one that ended at a knot of the torque's course at that. A peak is a level place: by the envelope theorem the time at which it comes does not enter. It is read off a parabola
-//! through three figures about that time, at the ends of the run and at junctions off the state there. Nothing is integrated
-//! beyond the last peak.
+//! neighbour's own, one that ended at a knot of the torque's course at that. A peak is a level place: by the envelope theorem the time
+//! at which it comes does not enter. It is read off a parabola through three figures about that time, at the ends of the run and at
+//! junctions off the state there. Nothing is integrated beyond the last peak, and of the run itself only the steps that hold one.
 
 use super::events::FIGURES;
 use super::model::{Model, Place, State};
 use super::run::Peaks;
-use super::stick::{Edge, Largest, Leg, Pair, Rolls, Stuck, first_passage};
+use super::stick::{Edge, Largest, Leg, Pair, Rolls, Sight, Stuck, first_passage};
 use crate::ode::dop853::{Dense, PROBES, Step};
 use crate::ode::step::{Counters, Tolerance};
 
@@ -49,6 +49,24 @@ impl RollingTrack {
         }
     }
 
+    /// The peaks of `model`, whose track this is, as [`Self::retraced`] reads those of a neighbour: `state` is its start.
+    pub(super) fn read_again(&self, model: &Model, state: &State) -> Option<Peaks> {
+        let mut peaks = self.peaks;
+        for i in self.read(model) {
+            let Largest { leg, from, .. } = self.largest[i];
+            let mut rolls = Rolls::at(model, &from, state);
+            self.follow(
+                leg,
+                &mut rolls,
+                (self.legs[leg].from_s, from.now),
+                &mut Step::new(),
+                &[i],
+                &mut peaks,
+            )?;
+        }
+        Some(peaks)
+    }
+
     /// The peaks of `model`, a neighbour of the one whose track this is, from its start `state`; [`Peaks::normal_outer_max_n`] and the
     /// friction at the contact that asks for less stay as they are. `None` where it goes another way: begins on another arc, or
     /// does not come to a junction that the run came to.
@@ -58,58 +76,68 @@ impl RollingTrack {
         }
         let read = self.read(model);
         let last = read.into_iter().map(|i| self.largest[i].leg).max()?;
-        let (mut rolls, mut y) = Rolls::new(model, self.arc, state);
-        let (mut t, mut step, mut counters) = (0.0, Step::new(), Counters::default());
+        let (mut rolls, y) = Rolls::new(model, self.arc, state);
+        let (mut t, mut step) = (0.0, Step::new());
         let mut now = rolls.sight(t, &y);
         let mut peaks = self.peaks;
         for (k, leg) in self.legs[..=last].iter().enumerate() {
-            let slope = rolls.set_out(now);
-            rolls.looks = leg.passes;
-            let h = leg.until_s - t;
-            step.take(&mut rolls, t, &y, &slope, h, &ANY, f64::INFINITY, &mut counters).ok()?;
-            let mut dense = None;
-            let passage = match leg.passes {
-                true => Some(first_passage(&mut rolls, &step, &mut dense, &mut counters)??),
-                false => None,
-            };
-            let largest_here = || read.into_iter().filter(|&i| self.largest[i].leg == k);
-            if largest_here().next().is_some() && dense.is_none() {
-                dense = Some(step.dense(&mut rolls, &mut counters).ok()?);
-            }
-            let length = passage.map_or(h, |theta| theta * h);
-            for i in largest_here() {
-                let at = self.largest[i];
-                let d = dense.as_ref()?;
-                let corner = at.edge.filter(|edge| self.is_corner(k, *edge));
-                let value = match corner {
-                    Some(Edge::Start) => now.figures[i],
-                    Some(Edge::End) => rolls.sight(t + length, &d.after(length)).figures[i],
-                    None => top(&mut rolls, d, t, at.t_s - t, h, i),
-                };
-                peaks.keep(i, at.t_s, value, peaks.normal_at_tan_n[usize::from(i == 1)]);
-            }
-            match (passage, &dense) {
-                (Some(_), Some(d)) => {
-                    t += length;
-                    y = d.after(length);
-                    if !rolls.pass(&mut y) {
-                        return None;
-                    }
-                    rolls.pass_knot(t);
-                    now = rolls.sight(t, &y);
+            let passage = self.follow(k, &mut rolls, (t, now), &mut step, &read, &mut peaks)?;
+            if let Some((length, mut y)) = passage {
+                t += length;
+                if !rolls.pass(&mut y) {
+                    return None;
                 }
-                _ => {
-                    t = leg.until_s;
-                    y = step.y1;
-                    now = rolls.probed[PROBES.len() - 1];
-                    if leg.breaks {
-                        rolls.pass_knot(t);
-                        now = rolls.sight(t, &y);
-                    }
+                rolls.pass_knot(t);
+                now = rolls.sight(t, &y);
+            } else {
+                t = leg.until_s;
+                now = rolls.probed[PROBES.len() - 1];
+                if leg.breaks {
+                    rolls.pass_knot(t);
+                    now = rolls.sight(t, &step.y1);
                 }
             }
         }
         Some(peaks)
+    }
+
+    /// Leg `k` from `now` at `t` (s) on; those of the figures `read` that were largest on it go to `peaks`. Where it ends at a junction,
+    /// how long it was, s, and with what; `None`: it goes another way.
+    fn follow(
+        &self,
+        k: usize,
+        rolls: &mut Rolls,
+        (t, now): (f64, Sight),
+        step: &mut Step<4>,
+        read: &[usize],
+        peaks: &mut Peaks,
+    ) -> Option<Option<(f64, Pair)>> {
+        let (leg, mut counters) = (&self.legs[k], Counters::default());
+        let slope = rolls.set_out(now);
+        rolls.looks = leg.passes;
+        // Nothing is added where it begins when that of the run did.
+        let h = leg.length_s + (leg.from_s - t);
+        step.take(rolls, t, &now.y, &slope, h, &ANY, f64::INFINITY, &mut counters).ok()?;
+        let mut dense = None;
+        let theta = match leg.passes {
+            true => Some(first_passage(rolls, step, &mut dense, &mut counters)??),
+            false => None,
+        };
+        let length = theta.map_or(h, |theta| theta * h);
+        for &i in read.iter().filter(|&&i| self.largest[i].leg == k) {
+            if dense.is_none() {
+                dense = Some(step.dense(rolls, &mut counters).ok()?);
+            }
+            let (d, at) = (dense.as_ref()?, self.largest[i]);
+            let corner = at.edge.filter(|edge| self.is_corner(k, *edge));
+            let value = match corner {
+                Some(Edge::Start) => now.figures[i],
+                Some(Edge::End) => rolls.sight(t + length, &d.after(length)).figures[i],
+                None => top(rolls, d, t, at.t_s - t, h, i),
+            };
+            peaks.keep(i, at.t_s, value, peaks.normal_at_tan_n[usize::from(i == 1)]);
+        }
+        Some(theta.zip(dense).map(|(_, d)| (length, d.after(length))))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::model::{Grip, Mode, Model, Place, State};
 use super::retrace::RollingTrack;
-use super::run::{Run, RunSettings, Stop, run};
+use super::run::{Peaks, Run, RunSettings, Stop, run};
 use super::stick::stuck;
 
 /// What pure rolling demands.
@@ -58,9 +58,23 @@ pub fn rolling_tracked(
 /// The figures of a neighbour of the model whose `track` it is, by the same steps: differences of such figures are
 /// derivatives. `None` where the neighbour goes another way.
 pub fn rolling_retraced(model: &Model, state: State, place: Place, track: &RollingTrack) -> Option<Rolling> {
+    Some(with_peaks(model, state, place, track.retraced(model, &state, place)?))
+}
+
+/// The same of the model whose `track` it is.
+pub fn rolling_read_again(
+    model: &Model,
+    state: State,
+    place: Place,
+    track: &RollingTrack,
+) -> Option<Rolling> {
+    Some(with_peaks(model, state, place, track.read_again(model, &state)?))
+}
+
+fn with_peaks(model: &Model, state: State, place: Place, peaks: Peaks) -> Rolling {
     let mut run = Run::start(state, both_roll(place), 0);
-    (run.stop, run.peaks) = (Stop::Finished, track.retraced(model, &state, place)?);
-    Some(Rolling::of(model, run))
+    (run.stop, run.peaks) = (Stop::Finished, peaks);
+    Rolling::of(model, run)
 }
 
 fn both_roll(place: Place) -> Mode {

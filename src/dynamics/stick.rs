@@ -57,7 +57,9 @@ pub(super) struct Stuck {
 /// One step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Leg {
-    /// Time up to which it was taken, s.
+    /// Time at which it begins, its length and time up to which it was taken, s.
+    pub(super) from_s: f64,
+    pub(super) length_s: f64,
     pub(super) until_s: f64,
     /// Whether it ends before that, at a junction.
     pub(super) passes: bool,
@@ -68,8 +70,9 @@ pub(super) struct Leg {
 /// Where a figure was largest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Largest {
-    /// Number of the step.
+    /// Number of the step, and where that sets out.
     pub(super) leg: usize,
+    pub(super) from: Outset,
     /// Time, s.
     pub(super) t_s: f64,
     /// Whether that is its very start or its very end.
@@ -87,10 +90,18 @@ pub(super) enum Edge {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sight {
     t: f64,
-    y: Pair,
+    pub(super) y: Pair,
     /// w'' and e''.
     rates: [f64; 2],
     pub(super) figures: [f64; FIGURES],
+}
+
+/// Where a step begins: what is seen there, the arc and the piece of C_bi's course that it lies on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Outset {
+    pub(super) now: Sight,
+    arc: usize,
+    inner: Ramp,
 }
 
 /// The two equations on one arc.
@@ -167,6 +178,17 @@ impl<'a> Rolls<'a> {
         let mut rolls = Self { model, table, probed: [nothing; PROBES.len()], looks: true, beat, inner };
         rolls.pass_knot(0.0);
         (rolls, y)
+    }
+
+    /// Where `outset` is.
+    pub(super) fn at(model: &'a Model, outset: &Outset, state: &State) -> Self {
+        let (mut rolls, _) = Self::new(model, outset.arc, state);
+        rolls.inner = outset.inner;
+        rolls
+    }
+
+    fn outset(&self) -> Outset {
+        Outset { now: self.probed[0], arc: self.table.arc(), inner: self.inner }
     }
 
     /// On to the piece of the torque's course that begins at a knot at `t` (s); where none is there the piece stays.
@@ -300,7 +322,7 @@ pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSe
     let mut run = Stuck {
         peaks: Peaks::NONE,
         legs: Vec::new(),
-        largest: [Largest { leg: 0, t_s: 0.0, edge: Some(Edge::Start) }; FIGURES],
+        largest: [Largest { leg: 0, from: rolls.outset(), t_s: 0.0, edge: Some(Edge::Start) }; FIGURES],
         counters: Counters::default(),
         passed: 0,
         interrupted: false,
@@ -316,6 +338,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
     let (mut t, mut h) = (0.0, longest);
     let mut step = Step::new();
     let mut now = rolls.sight(t, &y);
+    run.largest.iter_mut().for_each(|largest| largest.from.now = now);
     run.counters.rhs_evaluations += 1;
     settings.follow.begin_run();
     while t < settings.duration_s {
@@ -354,7 +377,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
         let Some(end) = first_passage(rolls, &step, &mut dense, &mut run.counters) else { return false };
         let until_s = if trial == rest { settings.duration_s.min(knot_s) } else { t + trial };
         let breaks = end.is_none() && rolls.is_knot(until_s);
-        run.legs.push(Leg { until_s, passes: end.is_some(), breaks });
+        run.legs.push(Leg { from_s: t, length_s: trial, until_s, passes: end.is_some(), breaks });
         if !watch(rolls, &step, end, &mut dense, settings, run) {
             return false;
         }
@@ -483,7 +506,7 @@ fn watch(
     let fine = 1e-3 * settings.tolerance;
     let may = may_hold_a_record(&seen[..count]);
     let mut peaks = run.peaks;
-    let leg = run.legs.len() - 1;
+    let (leg, outset) = (run.legs.len() - 1, rolls.outset());
     for (i, mut best) in run.peaks.figures().into_iter().enumerate() {
         if !may[i] {
             continue;
@@ -493,7 +516,7 @@ fn watch(
             if value(j) > best {
                 best = value(j);
                 peaks.keep(i, seen[j].t, best, seen[j].figures[super::events::N_BI]);
-                run.largest[i] = Largest { leg, t_s: seen[j].t, edge: Some(edge) };
+                run.largest[i] = Largest { leg, from: outset, t_s: seen[j].t, edge: Some(edge) };
             }
         }
         for j in 0..count {
@@ -519,7 +542,7 @@ fn watch(
                 best = found;
                 let t_s = step.t + theta * length;
                 peaks.keep(i, t_s, best, figures(theta)[super::events::N_BI]);
-                run.largest[i] = Largest { leg, t_s, edge: None };
+                run.largest[i] = Largest { leg, from: outset, t_s, edge: None };
             }
         }
     }

@@ -99,6 +99,11 @@ impl<'a> Table<'a> {
         table
     }
 
+    /// The present arc.
+    pub(super) fn arc(&self) -> usize {
+        self.arc
+    }
+
     fn enter(&mut self, arc: usize) {
         let curve = &self.model.curve;
         let until = |k: usize| curve.in_arc(k, curve.arc_end_rad(k)).windup;

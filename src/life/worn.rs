@@ -404,7 +404,7 @@ fn load_of_worn(design: &Design, drawn_state: &LoadState, drawn: bool) -> Result
         at_speeds: AtSpeeds::default(),
         first_tan_omega,
         alpha_max_rad: drawn_state.alpha_max_rad,
-        ends_alone: false,
+        looks: None,
     })
 }
 

@@ -28,8 +28,8 @@ pub struct LoadState {
     pub alpha_max_rad: f64,
     /// tan omega at first contact.
     pub first_tan_omega: f64,
-    /// Whether rows that count over all states on the way to a torque look at its ends alone: see [`ends_decide`].
-    pub ends_alone: bool,
+    /// The looks at which rows see states on the way to a torque, see [`LoadRows::deciding`]; `None`: all.
+    pub looks: Option<Vec<usize>>,
 }
 
 impl LoadState {
@@ -52,13 +52,27 @@ pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
 /// # Errors
 /// [`NoMargins`].
 pub fn load_state_at(design: &Design, effort: Effort) -> Result<LoadState, NoMargins> {
-    let (profile, curve) = curve_at_rest(design, effort)?;
+    state_of(design, curve_at_rest(design, effort, None)?, AtSpeeds::default())
+}
+
+/// The same next to `like`.
+///
+/// # Errors
+/// [`NoMargins`].
+pub fn load_state_beside(design: &Design, effort: Effort, like: &LoadState) -> Result<LoadState, NoMargins> {
+    state_of(design, curve_at_rest(design, effort, Some(&like.curve))?, like.at_speeds.beside())
+}
+
+fn state_of(
+    design: &Design,
+    (profile, curve): (Profile, WedgeCurve),
+    at_speeds: AtSpeeds,
+) -> Result<LoadState, NoMargins> {
     let flanks = design.clutch.sprags.flanks;
     let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
     let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
-    let at_speeds = AtSpeeds::default();
-    Ok(LoadState { profile, outline, curve, at_speeds, alpha_max_rad, first_tan_omega, ends_alone: false })
+    Ok(LoadState { profile, outline, curve, at_speeds, alpha_max_rad, first_tan_omega, looks: None })
 }
 
 /// A load state with what is asked of it.
@@ -85,7 +99,8 @@ struct Reached {
     torque_nm: f64,
     end_nm: f64,
     p: StaticPoint,
-    /// States below it, rising.
+    /// Numbers of the looks at states below it, and these, rising.
+    looks: Vec<usize>,
     below: Vec<StaticPoint>,
 }
 
@@ -93,7 +108,8 @@ impl Reached {
     fn new(case: &LoadCase, torque_nm: f64) -> Self {
         let end_nm = case.state.curve.end_torque_nm();
         let p = at(&case.state.curve, carried(torque_nm, end_nm));
-        Self { torque_nm, end_nm, p, below: below(case.state, &p) }
+        let (looks, below) = below(case.state, &p).unzip();
+        Self { torque_nm, end_nm, p, looks, below }
     }
 
     /// A demand at this state.
@@ -107,22 +123,39 @@ impl Reached {
     }
 }
 
-pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<Margin> {
+/// Margins of a load state.
+#[derive(Debug, Clone)]
+pub struct LoadRows {
+    /// The rows.
+    pub rows: Vec<Margin>,
+    /// Looks at states between no load and a torque at which a row that counts over all of them has its worst: it has it there in the
+    /// state of a neighbour too that differs by next to nothing.
+    pub deciding: Vec<usize>,
+}
+
+pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> LoadRows {
+    let mut deciding = Vec::new();
     let case = LoadCase { design, limits, state };
     let reached = |when: When| when.torque_nm(limits).map(|torque_nm| Reached::new(&case, torque_nm));
     let (nominal, peak) = (reached(When::Nominal), reached(When::Peak));
-    let row = |limit: &&'static Limit| match limit.when {
-        When::Nominal => loaded_row(&case, limit, nominal.as_ref()?),
-        When::Peak => loaded_row(&case, limit, peak.as_ref()?),
+    let mut row = |limit: &&'static Limit| match limit.when {
+        When::Nominal => loaded_row(&case, limit, nominal.as_ref()?, &mut deciding),
+        When::Peak => loaded_row(&case, limit, peak.as_ref()?, &mut deciding),
         _ => unloaded_row(&case, limit),
     };
-    LIMITS.iter().filter_map(row).collect()
+    let rows = LIMITS.iter().filter_map(&mut row).collect();
+    LoadRows { rows, deciding }
 }
 
-/// The row of a limit that is held at a torque.
-fn loaded_row(case: &LoadCase, limit: &'static Limit, reached: &Reached) -> Option<Margin> {
+/// The row of a limit that is held at a torque; where a state on the way there is the worst, its look goes to `deciding`.
+fn loaded_row(
+    case: &LoadCase,
+    limit: &'static Limit,
+    reached: &Reached,
+    deciding: &mut Vec<usize>,
+) -> Option<Margin> {
     let LoadCase { design, limits, state } = *case;
-    let Reached { torque_nm, end_nm, p, ref below } = *reached;
+    let Reached { torque_nm, end_nm, p, ref looks, ref below } = *reached;
     let name = (limit.name)(limits);
     match limit.of {
         Of::RollOver => Some(reached.row(limit, name, torque_nm, state.curve.roll_over_torque_nm())),
@@ -135,13 +168,23 @@ fn loaded_row(case: &LoadCase, limit: &'static Limit, reached: &Reached) -> Opti
         }
         Of::Neighbours => {
             // Clearance itself, relative to the sprag's height: smooth through contact.
-            let gap_m = clearance_up_to_m(design, state, &p, below)?;
+            let clearance_m = |p: &StaticPoint| clearance_at_m(design, state, p);
+            let at_ends_m = clearance_m(&StaticPoint::UNLOADED)?.min(clearance_m(&p)?);
+            let on_the_way_m: Vec<f64> = below.iter().filter_map(clearance_m).collect();
+            let gap_m = on_the_way_m.iter().copied().fold(at_ends_m, f64::min);
+            deciding.extend(
+                looks.iter().zip(on_the_way_m).find(|(_, m)| *m < at_ends_m && *m == gap_m).map(|(i, _)| i),
+            );
             let height_m = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
             Some(Margin { reference: height_m, ..reached.row(limit, name, 0.0, gap_m) })
         }
         _ => {
             let (allowed, required) = limit.allowed(design, limits)?;
             let value = limit.largest(case, &p, below)?;
+            if !below.is_empty() && limit.largest(case, &p, &[]) != Some(value) {
+                let is_largest = |at: &StaticPoint| limit.largest(case, &p, &[*at]) == Some(value);
+                deciding.extend(looks.iter().zip(below).find(|(_, at)| is_largest(at)).map(|(i, _)| i));
+            }
             let name = limit.name_at(case, required, &p);
             Some(Margin { required, ..reached.row(limit, &name, value, allowed) })
         }
@@ -173,34 +216,12 @@ fn unloaded_row(case: &LoadCase, limit: &'static Limit) -> Option<Margin> {
 /// junctions, which divide the curve into a few pieces.
 const LOOKS: usize = 24;
 
-/// Whether none of the rows that count over all states on the way to a torque has its worst between no load and that torque:
-/// then none has in the state of a neighbour either that differs by next to nothing.
-pub fn ends_decide(design: &Design, limits: &Limits, state: &LoadState) -> bool {
-    let case = LoadCase { design, limits, state };
-    let decide = |when: When| {
-        let Some(torque_nm) = when.torque_nm(limits) else { return true };
-        let Reached { p, below, .. } = Reached::new(&case, torque_nm);
-        LIMITS.iter().filter(|limit| limit.when == when).all(|limit| match limit.of {
-            Of::Neighbours => {
-                let up_to = |below| clearance_up_to_m(design, state, &p, below);
-                up_to(&below) == up_to(&[])
-            }
-            Of::Sprag { below_torque: Some(_), .. } => {
-                limit.largest(&case, &p, &below) == limit.largest(&case, &p, &[])
-            }
-            _ => true,
-        })
-    };
-    decide(When::Nominal) && decide(When::Peak)
-}
-
-/// States below `peak`, rising.
-fn below(state: &LoadState, peak: &StaticPoint) -> Vec<StaticPoint> {
-    if state.ends_alone {
-        return Vec::new();
-    }
+/// Numbers of the looks at states below `peak`, and these, rising.
+fn below(state: &LoadState, peak: &StaticPoint) -> impl Iterator<Item = (usize, StaticPoint)> {
     let last_n = peak.normal_inner_n;
-    (1..LOOKS).filter_map(|i| state.curve.at_normal(last_n * i as f64 / LOOKS as f64)).collect()
+    let counts = move |i: &usize| state.looks.as_ref().is_none_or(|looks| looks.contains(i));
+    let at = move |i: usize| Some((i, state.curve.at_normal(last_n * i as f64 / LOOKS as f64)?));
+    (1..LOOKS).filter(counts).filter_map(at)
 }
 
 /// Clearance between neighbouring sprags in a static state, m; `None` without flanks.
@@ -211,17 +232,6 @@ pub(super) fn clearance_at_m(design: &Design, state: &LoadState, p: &StaticPoint
         _ => (state.profile.outer_centre_distance_m, 0.0),
     };
     Some(clearance_m(outline, oc_e, rotation, design.clutch.sprags.count))
-}
-
-/// The smallest from no load over the states `below` to `peak`.
-fn clearance_up_to_m(
-    design: &Design,
-    state: &LoadState,
-    peak: &StaticPoint,
-    below: &[StaticPoint],
-) -> Option<f64> {
-    let all = [&StaticPoint::UNLOADED, peak].into_iter().chain(below);
-    all.map(|p| clearance_at_m(design, state, p)).reduce(|a, b| Some(a?.min(b?)))?
 }
 
 /// The torque, or one a hair below the curve's end where that comes first.

@@ -21,7 +21,7 @@ mod unlike;
 pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use hoop::{ring_places_pa, rings_pa};
 pub use limits::{Limit, When, limit_of};
-pub use load::{LoadState, ends_decide, load_state, load_state_at};
+pub use load::{LoadRows, LoadState, load_state, load_state_at, load_state_beside};
 pub use overrun::{
     LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
 };
@@ -132,11 +132,16 @@ pub fn load_margins(
     capacities: Capacities,
     state: &LoadState,
 ) -> Vec<Margin> {
-    let mut rows = load::rows(design, limits, state);
+    load_rows(design, limits, capacities, state).rows
+}
+
+/// The same with what they say of the states on the way to a torque.
+pub fn load_rows(design: &Design, limits: &Limits, capacities: Capacities, state: &LoadState) -> LoadRows {
+    let mut found = load::rows(design, limits, state);
     if capacities == Capacities::Wanted {
-        capacity::fill(&mut rows, design, limits, state);
+        capacity::fill(&mut found.rows, design, limits, state);
     }
-    rows
+    found
 }
 
 /// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where
@@ -165,13 +170,16 @@ pub(crate) fn unknown_scene_rows(scenario: &Scenario, limits: &Limits) -> Vec<Ma
     scenes::unknown_rows(&scenario.name, limits)
 }
 
-/// The curve of a design at rest.
+/// The curve of a design at rest; `like`: that of one next to it.
 fn curve_at_rest(
     design: &Design,
     effort: Effort,
+    like: Option<&WedgeCurve>,
 ) -> Result<(crate::profile::Profile, WedgeCurve), NoMargins> {
     let profile = design.clutch.profile().map_err(NoMargins::Profile)?;
-    let curve = WedgeCurve::build_reaching_at(&design.clutch, &profile, 0.0, None, effort)
-        .map_err(NoMargins::Curve)?;
-    Ok((profile, curve))
+    let curve = match like {
+        Some(like) => WedgeCurve::build_beside(&design.clutch, &profile, effort, like),
+        None => WedgeCurve::build_reaching_at(&design.clutch, &profile, 0.0, None, effort),
+    };
+    Ok((profile, curve.map_err(NoMargins::Curve)?))
 }

@@ -12,7 +12,7 @@ use crate::design::{Design, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optim
 use crate::fidelity::{self, Effort};
 use crate::file::{DesignForm, EditError, content, with_limits, with_values};
 use crate::margin::{
-    Capacities, LoadState, Margin, NoMargins, RESOLUTION, RunOut, SceneDemand, load_state_at,
+    Capacities, LoadRows, LoadState, Margin, NoMargins, RESOLUTION, RunOut, SceneDemand, load_state_at,
     run_out_margins, scene_margins, scene_rows, unlike_margins,
 };
 use crate::scenario::{AtRest, Prepared, RollingTrack, Settings, demand, demand_tracked};
@@ -102,9 +102,13 @@ type SceneRows<'a> = dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin> + Sync + 'a
 /// The load state at a corner, by its number.
 type StateAt<'a> = dyn Fn(usize, &Design) -> Result<Arc<LoadState>, NoMargins> + Sync + 'a;
 
+/// The rows of a load state at a corner, by its number.
+type LoadedRows<'a> = dyn Fn(usize, &Design, &LoadState) -> Vec<Margin> + Sync + 'a;
+
 /// How an evaluation is taken; corners and scenes side by side within what shares threads.
 struct Way<'a> {
     state: &'a StateAt<'a>,
+    loaded: &'a LoadedRows<'a>,
     scene: &'a SceneRows<'a>,
 }
 
@@ -346,13 +350,30 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
     pub fn assess(&self, design: &Design) -> Result<Assessment, NoEvaluation> {
-        self.assess_with(design, &Way { state: &self.state(), scene: &self.rows_of_scene() }, 0)
+        let loaded = |_, design: &Design, state: &LoadState| self.loaded(design, state).rows;
+        self.assess_with(
+            design,
+            &Way { state: &self.state(), loaded: &loaded, scene: &self.rows_of_scene() },
+            0,
+        )
     }
 
     /// Load states built at the problem's effort.
     fn state(&self) -> impl Fn(usize, &Design) -> Result<Arc<LoadState>, NoMargins> + Sync {
         let effort = self.effort();
         move |_, design| load_state_at(design, effort).map(Arc::new)
+    }
+
+    /// The required rows of a load state.
+    fn loaded(&self, design: &Design, state: &LoadState) -> LoadRows {
+        let raised = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
+        let capacities = if raised { Capacities::Wanted } else { Capacities::LeftOut };
+        let mut found = smooth::load_rows(design, &self.limits, capacities, state);
+        found.rows.retain(|m| m.required);
+        if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
+            found.rows.extend(smooth::flank_rows(design, state));
+        }
+        found
     }
 
     /// Scenes run at the problem's fidelity.
@@ -363,16 +384,7 @@ impl ClutchProblem {
     /// The same at corner `k`, on its way.
     fn assess_with(&self, design: &Design, way: &Way, k: usize) -> Result<Assessment, NoEvaluation> {
         let state = (way.state)(k, design).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
-        let raised = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
-        let capacities = if raised { Capacities::Wanted } else { Capacities::LeftOut };
-        let loaded = || {
-            let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
-            rows.retain(|m| m.required);
-            if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
-                rows.extend(smooth::flank_rows(design, &state));
-            }
-            rows
-        };
+        let loaded = || (way.loaded)(k, design, &state);
         let scenes = |wanted: &(dyn Fn(&String) -> bool + Sync)| {
             let asked: Vec<&Scenario> = design.scenarios.iter().filter(|s| wanted(&s.name)).collect();
             let rows =
@@ -444,7 +456,8 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
     pub fn assess_at(&self, x: &[f64]) -> Result<Assessment, NoEvaluation> {
-        self.assess_at_with(x, &Way { state: &self.state(), scene: &self.rows_of_scene() })
+        let loaded = |_, design: &Design, state: &LoadState| self.loaded(design, state).rows;
+        self.assess_at_with(x, &Way { state: &self.state(), loaded: &loaded, scene: &self.rows_of_scene() })
     }
 
     /// The same on its way.

@@ -3,7 +3,7 @@
 
 use crate::design::{Design, Limits};
 use crate::margin::{
-    BeyondEnd, Capacities, Demand, END_OF_PROFILE, LIMITS, LoadState, Margin, When, load_margins,
+    self, BeyondEnd, Capacities, Demand, END_OF_PROFILE, LIMITS, LoadRows, LoadState, Margin, When,
 };
 use crate::profile::Outline;
 
@@ -22,19 +22,19 @@ pub(super) fn load_rows(
     limits: &Limits,
     capacities: Capacities,
     state: &LoadState,
-) -> Vec<Margin> {
-    let mut rows = load_margins(design, limits, capacities, state);
+) -> LoadRows {
+    let mut found = margin::load_rows(design, limits, capacities, state);
     if state.curve.end_torque_nm() <= 0.0 {
-        return rows;
+        return found;
     }
-    for row in &mut rows {
+    for row in &mut found.rows {
         let Demand::Overloaded { at_end, .. } = row.demand else { continue };
         let ends = row.limit == &END_OF_PROFILE;
         let shortfall = limits.peak_torque_nm.filter(|_| ends).map(|torque| profile_short(state, torque));
         let beyond = shortfall.map_or(BeyondEnd::AsAtEnd, BeyondEnd::Short);
         row.demand = Demand::Overloaded { at_end, beyond };
     }
-    rows
+    found
 }
 
 /// Margin of the end of the profile at a torque beyond the curve's end, N m.

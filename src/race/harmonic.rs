@@ -6,7 +6,10 @@
 //! Timoshenko & Goodier, art. 43). For large m it is the half-plane with u_m = 2 (1-nu^2) R/(E m) p_m, whose sum is
 //! the local contact; what the ring adds is the sum of the differences, which dies out within a few harmonics.
 
+use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
+use std::rc::Rc;
 
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
@@ -191,12 +194,37 @@ fn radial_free(k: f64, m: f64) -> f64 {
     k - m * m
 }
 
+/// Number of contacts, radius of the other rim over that of the track, Poisson's ratio.
+type Key = (usize, f64, f64, PlaneState, Rim);
+
+thread_local! {
+    /// Those of the last rings of this thread: clutches of a search mostly share them.
+    static LAST: RefCell<VecDeque<(Key, Rc<[Harmonic]>)>> = const { RefCell::new(VecDeque::new()) };
+}
+
+/// Two rings in plane strain and in plane stress, of two clutches.
+const KEPT: usize = 8;
+
+/// The harmonics of a ring.
+fn known(key: Key) -> Rc<[Harmonic]> {
+    let (contacts, other, poisson, plane, rim) = key;
+    LAST.with_borrow_mut(|last| {
+        if let Some((_, all)) = last.iter().find(|(known, _)| *known == key) {
+            return all.clone();
+        }
+        let of = |k: usize| harmonic((k * contacts) as f64, other, poisson, plane, rim);
+        let all: Rc<[Harmonic]> = (1..=HARMONICS).map_while(of).collect();
+        last.truncate(KEPT - 1);
+        last.push_front((key, all.clone()));
+        all
+    })
+}
+
 impl Race {
-    fn harmonics(&self, contacts: usize, plane: PlaneState) -> impl Iterator<Item = (f64, Harmonic)> + '_ {
+    fn harmonics(&self, contacts: usize, plane: PlaneState) -> impl Iterator<Item = (f64, Harmonic)> {
         let other = self.other_rim_m() / self.track_m();
-        let (nu, rim) = (self.material().poisson_ratio, self.rim());
-        (1..=HARMONICS)
-            .map_while(move |k| harmonic((k * contacts) as f64, other, nu, plane, rim).map(|h| (k as f64, h)))
+        let all = known((contacts, other, self.material().poisson_ratio, plane, self.rim()));
+        (0..all.len()).map(move |i| ((i + 1) as f64, all[i]))
     }
 
     /// Depth d, m, at which a half-plane under one contact has the approach that the ring has between that contact

@@ -5,8 +5,8 @@ use super::figures::ErrorEstimate;
 use super::prepare::Prepared;
 use super::simulate::{SLIPPED_M, Settings, verdict};
 use crate::dynamics::{
-    Model, Rolling, RollingTrack, Run, RunSettings, Stop, rolling, rolling_quickly, rolling_retraced,
-    rolling_tracked, run, run_while_it_sticks,
+    Model, Rolling, RollingTrack, Run, RunSettings, Stop, rolling, rolling_quickly, rolling_read_again,
+    rolling_retraced, rolling_tracked, run, run_while_it_sticks,
 };
 use crate::friction::Stribeck;
 
@@ -181,6 +181,12 @@ pub fn demand_retraced(prepared: &Prepared, track: Option<&RollingTrack>) -> Opt
         return Some(at_rest(prepared));
     }
     let found = rolling_retraced(&prepared.model, prepared.state, prepared.mode.place, track?)?;
+    Some(of_peaks(prepared, &found))
+}
+
+/// The same of the very scene whose `track` is given.
+pub fn demand_read_again(prepared: &Prepared, track: &RollingTrack) -> Option<RollingDemand> {
+    let found = rolling_read_again(&prepared.model, prepared.state, prepared.mode.place, track)?;
     Some(of_peaks(prepared, &found))
 }
 

@@ -20,7 +20,7 @@ mod train;
 
 pub use crate::dynamics::RollingTrack;
 pub use answer::{GaveUp, Simulation, Verdict};
-pub use demand::{RollingDemand, demand, demand_quickly, demand_retraced, demand_tracked};
+pub use demand::{RollingDemand, demand, demand_quickly, demand_read_again, demand_retraced, demand_tracked};
 pub use equilibrium::overrun_swing;
 pub use error::Scales;
 pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures_of};

@@ -169,7 +169,7 @@ fn at_start(
     let known = known.filter(|k| k.clutch == clutch);
     let build = |speed: f64| {
         let Reduction { reach_nm, effort } = *reduction;
-        let of_known = known.and_then(|k| k.at_speeds.of(k.curve, speed, reach_nm, effort));
+        let of_known = known.and_then(|k| k.at_speeds.of(k.curve, clutch, speed, reach_nm, effort));
         let anew = || WedgeCurve::build_reaching_at(clutch, &profile, speed, reach_nm, effort);
         of_known.map_or_else(anew, Ok).map_err(NoScenario::Curve)
     };

@@ -2,51 +2,114 @@
 
 use super::build::Effort;
 use super::curve::{EndReason, WedgeCurve};
-use std::sync::{Arc, Mutex, OnceLock};
+use super::quick::TRUSTED;
+use crate::clutch::Clutch;
+use std::sync::{Arc, Mutex, MutexGuard};
 
 /// Of a clutch whose curve at rest is known: its curves at speed, built by whoever asks first. Clones share them. What is answered
 /// does not depend on who that was.
 #[derive(Debug, Clone, Default)]
-pub struct AtSpeeds(Arc<Mutex<Vec<Slot>>>);
+pub struct AtSpeeds {
+    slots: Slots,
+    /// Those of a clutch next to it.
+    like: Option<Slots>,
+    /// Whether they are for differences between clutches.
+    for_slopes: bool,
+}
+
+type Slots = Arc<Mutex<Vec<Slot>>>;
+
+/// Of what was asked for the curve that goes farthest.
+type Built = Arc<Mutex<Option<Arc<WedgeCurve>>>>;
 
 #[derive(Debug)]
 struct Slot {
     speed_rad_s: f64,
     effort: Effort,
-    built: Arc<OnceLock<Option<WedgeCurve>>>,
+    built: Built,
 }
 
+/// Largest truncation of a quick curve whose slopes by the numbers of the clutch are good to 1e-5.
+const TRUSTED_FOR_SLOPES: f64 = 1e-6;
+
 impl AtSpeeds {
-    /// As [`WedgeCurve::build_reaching_at`] has it of the clutch that `known`, always the same, is of, whose elastic laws and bodies
-    /// stand already; `None`: that is to be asked.
+    /// The same for differences between this clutch and those next to it, in which what a quick curve leaves out all but cancels.
+    pub fn for_slopes(&self) -> Self {
+        Self { for_slopes: true, ..self.clone() }
+    }
+
+    /// For the same, of a clutch next to the one whose these are, once that needs no more of them.
+    pub fn beside(&self) -> Self {
+        Self { slots: Arc::default(), like: Some(self.slots.clone()), for_slopes: true }
+    }
+
+    /// As [`WedgeCurve::build_reaching_at`] has it of `clutch`, always the same, whose curve at rest at this effort is `known` with elastic
+    /// laws and bodies that stand already; `None`: that is to be asked.
     pub fn of(
         &self,
         known: &WedgeCurve,
+        clutch: &Clutch,
         speed_rad_s: f64,
         reach_nm: Option<f64>,
         effort: Effort,
     ) -> Option<WedgeCurve> {
-        let slot = self.slot(speed_rad_s, effort);
-        let built = slot.get_or_init(|| known.marched(speed_rad_s, reach_nm, effort));
-        let goes_so_far = |curve: &WedgeCurve| {
-            curve.end().0 != EndReason::NotBuilt || reach_nm.is_some_and(|reach| curve.carries(reach))
+        if known.effort != effort {
+            return None;
+        }
+        let like = |effort: Effort| {
+            self.like.as_ref().and_then(|slots| held(&slot(slots, speed_rad_s, effort)).clone())
         };
-        match built {
-            Some(curve) if goes_so_far(curve) => Some(curve.reaching(reach_nm)),
-            // Whoever asked first needed less of it.
-            Some(_) => known.marched(speed_rad_s, reach_nm, effort),
-            None => None,
+        let own = || {
+            let march = || known.marched(speed_rad_s, reach_nm, like(effort).as_deref());
+            kept(&slot(&self.slots, speed_rad_s, effort), reach_nm, march)
+        };
+        let full = || {
+            let (profile, like) = (&known.statics().profile, like(Effort::Full));
+            let build = || {
+                let like = like.as_deref();
+                WedgeCurve::build_like(clutch, profile, speed_rad_s, reach_nm, Effort::Full, like).ok()
+            };
+            kept(&slot(&self.slots, speed_rad_s, Effort::Full), reach_nm, build)
+        };
+        let trusted = if self.for_slopes { TRUSTED_FOR_SLOPES } else { TRUSTED };
+        let does = |quick: &WedgeCurve| quick.leaves_out_less_than(trusted, reach_nm);
+        match like(effort) {
+            Some(like) if does(&like) => own(),
+            Some(_) => full(),
+            None => {
+                let own = own()?;
+                if does(&own) { Some(own) } else { full() }
+            }
         }
-        .filter(WedgeCurve::is_trusted)
     }
+}
 
-    fn slot(&self, speed_rad_s: f64, effort: Effort) -> Arc<OnceLock<Option<WedgeCurve>>> {
-        let mut slots = self.0.lock().unwrap_or_else(|e| e.into_inner());
-        if let Some(slot) = slots.iter().find(|s| s.speed_rad_s == speed_rad_s && s.effort == effort) {
-            return slot.built.clone();
-        }
-        let built = Arc::default();
-        slots.push(Slot { speed_rad_s, effort, built: Arc::clone(&built) });
-        built
+/// What `built` has up to `reach_nm` (N m); `build` where that is not enough.
+fn kept(
+    built: &Built,
+    reach_nm: Option<f64>,
+    build: impl FnOnce() -> Option<WedgeCurve>,
+) -> Option<WedgeCurve> {
+    let goes_so_far = |curve: &Arc<WedgeCurve>| {
+        curve.end().0 != EndReason::NotBuilt || reach_nm.is_some_and(|reach| curve.carries(reach))
+    };
+    let mut built = held(built);
+    if !built.as_ref().is_some_and(goes_so_far) {
+        *built = Some(Arc::new(build()?));
     }
+    built.as_ref().map(|curve| curve.reaching(reach_nm))
+}
+
+fn slot(slots: &Slots, speed_rad_s: f64, effort: Effort) -> Built {
+    let mut slots = held(slots);
+    if let Some(slot) = slots.iter().find(|s| s.speed_rad_s == speed_rad_s && s.effort == effort) {
+        return slot.built.clone();
+    }
+    let built = Built::default();
+    slots.push(Slot { speed_rad_s, effort, built: built.clone() });
+    built
+}
+
+fn held<T>(of: &Mutex<T>) -> MutexGuard<'_, T> {
+    of.lock().unwrap_or_else(|e| e.into_inner())
 }

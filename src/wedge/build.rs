@@ -11,6 +11,7 @@ use crate::clutch::{Carrier, Clutch};
 use crate::contact::element_share;
 use crate::numeric::root;
 use crate::profile::Profile;
+use std::sync::{Arc, OnceLock};
 
 impl WedgeCurve {
     /// Build the curve of `clutch` at mean speed `speed_rad_s`.
@@ -32,7 +33,7 @@ impl WedgeCurve {
         inner_curvature: InnerCurvature,
     ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), inner_curvature).map_err(NoCurve::NoElastic)?;
-        Self::march(statics, exponent(clutch), speed_rad_s, None, Effort::Full)
+        Self::march(statics, exponent(clutch), speed_rad_s, None, Effort::Full, None)
     }
 
     /// As [`Self::build`], without the arcs after the one that carries `reach_nm` (N m), if that is given: the
@@ -60,32 +61,63 @@ impl WedgeCurve {
         reach_nm: Option<f64>,
         effort: Effort,
     ) -> Result<Self, NoCurve> {
+        Self::build_like(clutch, profile, speed_rad_s, reach_nm, effort, None)
+    }
+
+    /// The whole curve at rest of a clutch next to that of `like`: its arcs end next to those. To the first order what
+    /// [`Self::build_reaching_at`] builds.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_beside(
+        clutch: &Clutch,
+        profile: &Profile,
+        effort: Effort,
+        like: &Self,
+    ) -> Result<Self, NoCurve> {
+        Self::build_like(clutch, profile, 0.0, None, effort, Some(like))
+    }
+
+    /// The same; `like`: that of a clutch next to it, at the same speed, whose effort this takes.
+    pub(super) fn build_like(
+        clutch: &Clutch,
+        profile: &Profile,
+        speed_rad_s: f64,
+        reach_nm: Option<f64>,
+        effort: Effort,
+        like: Option<&Self>,
+    ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = statics.map_err(NoCurve::NoElastic)?;
         let q = exponent(clutch);
+        let effort = like.map_or(effort, |like| like.effort);
         if effort == Effort::Full {
-            return Self::march(statics, q, speed_rad_s, reach_nm, effort);
+            return Self::march(statics, q, speed_rad_s, reach_nm, effort, like);
         }
         let full = statics.clone();
         statics.effort = effort;
         statics.elastic = statics.elastic.quickly();
-        match Self::march(statics, q, speed_rad_s, reach_nm, effort) {
-            Ok(quick) if quick.is_trusted() => Ok(quick),
+        match Self::march(statics, q, speed_rad_s, reach_nm, effort, like) {
+            Ok(quick) if like.is_some() || quick.leaves_out_less_than(TRUSTED, None) => Ok(quick),
             // Or there is none: the full one decides.
-            _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full),
+            _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full, like),
         }
     }
 
-    /// The curve of the same clutch at mean speed `speed_rad_s`, whether or not it [`Self::is_trusted`], at the effort of this one, whose
-    /// elastic laws and bodies stand already; `None`: that is to be asked.
-    pub(super) fn marched(&self, speed_rad_s: f64, reach_nm: Option<f64>, effort: Effort) -> Option<Self> {
-        let same = self.effort == effort;
-        same.then(|| Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort))?.ok()
+    /// The curve of the same clutch at mean speed `speed_rad_s` at the effort of this one, whose elastic laws and bodies stand already,
+    /// whatever it leaves out. `like`: that of a clutch next to it.
+    pub(super) fn marched(
+        &self,
+        speed_rad_s: f64,
+        reach_nm: Option<f64>,
+        like: Option<&Self>,
+    ) -> Option<Self> {
+        Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, self.effort, like).ok()
     }
 
-    /// Whether it may be taken as it is: a quick one that varies more than a few panels follow may not.
-    pub(super) fn is_trusted(&self) -> bool {
-        self.effort == Effort::Full || self.truncation() < TRUSTED
+    /// Whether up to `reach_nm` (N m) it leaves out less than `part`: a quick one that varies more than a few panels follow does not.
+    pub(super) fn leaves_out_less_than(&self, part: f64, reach_nm: Option<f64>) -> bool {
+        self.effort == Effort::Full || self.truncation_of(self.arcs_to(reach_nm)) < part
     }
 
     /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
@@ -105,7 +137,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         (statics.offset_m, statics.carrier) = (offset_m, carrier);
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
     /// This curve, its speed and effort kept, of a sprag that measures `size_m` (m) more across its contacts, half of it at each. The
@@ -119,7 +151,7 @@ impl WedgeCurve {
         }
         let mut statics = self.statics.clone();
         statics.set_apart(SpragDeviation { size_m, ..SpragDeviation::default() });
-        Self::march(statics, self.exponent, self.speed_rad_s, None, self.effort)
+        Self::march(statics, self.exponent, self.speed_rad_s, None, self.effort, None)
     }
 
     /// The curve at rest of sprags whose surfaces have changed by so little that their bodies still give as those of `like` do.
@@ -130,7 +162,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.bulk.clone_from(&like.statics.bulk);
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).
@@ -143,7 +175,7 @@ impl WedgeCurve {
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = statics.elastic.local_only();
         statics.bulk = None;
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
     /// The curve at rest of a clutch whose bodies are layers of one linear element through half their length, as a deck for
@@ -155,16 +187,18 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = Elastic::with_layers(clutch, element_share).map_err(NoCurve::NoElastic)?;
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
-    /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`.
+    /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`. `like`: the curve of a clutch next to this one,
+    /// at the same speed.
     pub(super) fn march(
         statics: Statics,
         exponent: f64,
         speed_rad_s: f64,
         reach_nm: Option<f64>,
         effort: Effort,
+        like: Option<&Self>,
     ) -> Result<Self, NoCurve> {
         let profile = statics.profile.clone();
         let beta0 = profile.beta0_rad;
@@ -182,7 +216,8 @@ impl WedgeCurve {
                 .map_err(|_| NoCurve::NoFirstContact)?;
         }
         let alpha0 = touch.alpha.v;
-        let mut arcs: Vec<ArcTable> = Vec::new();
+        let like = like.filter(|like| like.first == first && like.effort == effort);
+        let mut arcs: Vec<Arc<ArcTable>> = Vec::new();
         let (mut n_from, mut shift, mut windup_from) = (0.0, 0.0, 0.0);
         let mut end = EndReason::OffProfile;
         for k in first..profile.arcs.len() {
@@ -198,16 +233,24 @@ impl WedgeCurve {
                     }
                 }
             }
-            let reach = arc_end(&statics, k, speed_rad_s, n_from, shift, profile.arcs[k].until_rad, effort);
+            let until = profile.arcs[k].until_rad;
+            let beside = |like: &Self| {
+                let moved_rad = until - like.statics.profile.arcs[k].until_rad;
+                arc_end_beside(&statics, k, speed_rad_s, shift, like.off_profile(k - first)?, moved_rad)
+            };
+            let reach = like
+                .and_then(beside)
+                .or_else(|| arc_end(&statics, k, speed_rad_s, n_from, shift, until, effort));
             let Some((n_until, reason)) = reach else {
                 end = EndReason::RollsOver;
                 break;
             };
+            let like = like.and_then(|like| like.arcs.get(k - first)).map(AsRef::as_ref);
             let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, exponent, effort }
-                .build(n_from, n_until, windup_from, k == first)
+                .build(n_from, n_until, windup_from, k == first, like)
                 .map_err(|_| NoCurve::NoConvergence)?;
             windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));
-            arcs.push(arc);
+            arcs.push(Arc::new(arc));
             n_from = n_until;
             if let Some(reason) = reason {
                 end = reason;
@@ -221,7 +264,28 @@ impl WedgeCurve {
         if arcs.is_empty() {
             return Err(NoCurve::NoFirstContact);
         }
-        Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, over: Vec::new(), end, touch })
+        let near_peak_n = like.and_then(|like| *like.peak_n.get()?);
+        let (over, peak_n) = (Vec::new(), OnceLock::new());
+        Ok(Self {
+            statics,
+            speed_rad_s,
+            exponent,
+            effort,
+            alpha0,
+            first,
+            arcs,
+            over,
+            end,
+            touch,
+            peak_n,
+            near_peak_n,
+        })
+    }
+
+    /// Its arc `k`, where it ends by the turn of its contact; `None` where there is no such arc, or torque ends it.
+    fn off_profile(&self, k: usize) -> Option<&Arc<ArcTable>> {
+        let rolls_over = self.end == EndReason::RollsOver && k + 1 == self.arcs.len();
+        self.arcs.get(k).filter(|_| !rolls_over)
     }
 
     /// Whether one of its arcs carries `reach_nm` (N m).
@@ -232,12 +296,20 @@ impl WedgeCurve {
     /// This curve without the arcs after the one that carries `reach_nm` (N m): what [`Self::build_reaching`] builds, for who has
     /// the whole curve already.
     pub fn reaching(&self, reach_nm: Option<f64>) -> Self {
-        let carries = |a: &ArcTable| reach_nm.is_some_and(|reach| a.torque_until_nm > reach);
+        let arcs = self.arcs_to(reach_nm);
         // The last arc ends for a reason of its own.
-        match self.arcs.iter().position(carries).filter(|k| k + 1 < self.arcs.len()) {
-            Some(k) => Self { arcs: self.arcs[..=k].to_vec(), end: EndReason::NotBuilt, ..self.clone() },
-            None => self.clone(),
+        if arcs.len() == self.arcs.len() {
+            return self.clone();
         }
+        let (arcs, end) = (arcs.to_vec(), EndReason::NotBuilt);
+        Self { arcs, end, peak_n: OnceLock::new(), near_peak_n: None, ..self.clone() }
+    }
+
+    /// Its arcs up to the one that carries `reach_nm` (N m).
+    fn arcs_to(&self, reach_nm: Option<f64>) -> &[Arc<ArcTable>] {
+        let carries = |a: &Arc<ArcTable>| reach_nm.is_some_and(|reach| a.torque_until_nm > reach);
+        let count = self.arcs.iter().position(carries).map_or(self.arcs.len(), |k| k + 1);
+        &self.arcs[..count]
     }
 }
 
@@ -281,6 +353,39 @@ impl Effort {
 /// q of s = (alpha - alpha_0)^(1/q): 9 for the power of the roller law, 10 for logarithmic laws.
 fn exponent(clutch: &Clutch) -> f64 {
     if clutch.contact.facts().knows_radius { 10.0 } else { 9.0 }
+}
+
+/// Steps of Newton to the end of an arc, the largest of them, relative, and the one after which the next is less than rounding.
+const STEPS_TO_END: usize = 4;
+const BESIDE: f64 = 1e-3;
+const ARRIVED: f64 = 1e-9;
+
+/// As [`arc_end`] next to the arc `near`, from whose end the turn of the contact goes on by `moved_rad` (rad); `None`: that is to be
+/// asked.
+fn arc_end_beside(
+    statics: &Statics,
+    k: usize,
+    speed: f64,
+    shift: f64,
+    near: &ArcTable,
+    moved_rad: f64,
+) -> Option<(f64, Option<EndReason>)> {
+    let last = k + 1 == statics.profile.arcs.len();
+    let mut n = near.n_until;
+    for _ in 0..STEPS_TO_END {
+        let c = statics.closure(k, n, speed, shift).ok()?;
+        let left = moved_rad + (near.turn_until_rad - c.turn_rad(statics.profile.beta0_rad));
+        let step = left / (c.rotation.d - c.beta.d);
+        n += step;
+        let still_beside = (n - near.n_until).abs() < BESIDE * near.n_until;
+        if c.torque_nm(1).d <= 0.0 || !still_beside {
+            return None;
+        }
+        if step.abs() < ARRIVED * n {
+            return Some((n, last.then_some(EndReason::OffProfile)));
+        }
+    }
+    None
 }
 
 /// N at which arc `k` ends and, where that ends the curve, why. `None`: nothing of this arc can be used.

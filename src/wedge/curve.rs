@@ -5,7 +5,8 @@ use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::elastic::NoElastic;
 use super::quick::lowest;
 use super::table::{ArcTable, levelled, point};
-use crate::numeric::root;
+use crate::numeric::{dual::Dual, root};
+use std::sync::{Arc, OnceLock};
 
 named! {
     /// Why the curve ends.
@@ -65,12 +66,16 @@ pub struct WedgeCurve {
     pub(super) effort: Effort,
     pub(super) alpha0: f64,
     pub(super) first: usize,
-    pub(super) arcs: Vec<ArcTable>,
+    pub(super) arcs: Vec<Arc<ArcTable>>,
     /// What comes after its end ([`Self::beyond`]); mostly nothing. Only places see it: no torque, no force is looked for there.
     pub(super) over: Vec<ArcTable>,
     pub(super) end: EndReason,
     /// Geometry at first contact, for the open clutch.
     pub(super) touch: Closure,
+    /// N at which its last arc, if that went on, would carry most, N, once that was asked for; the same of the curve next to which this
+    /// one was built.
+    pub(super) peak_n: OnceLock<Option<f64>>,
+    pub(super) near_peak_n: Option<f64>,
 }
 
 /// Why a curve cannot be built at all.
@@ -87,6 +92,9 @@ pub enum NoCurve {
     NoElastic(NoElastic),
 }
 
+/// d ln C/d ln N below which C is taken to be at its peak: what is left of it is of the square of that.
+const LEVEL: f64 = 1e-5;
+
 impl WedgeCurve {
     /// alpha at first contact at this speed, rad (0 at rest).
     pub fn first_contact_rad(&self) -> f64 {
@@ -99,6 +107,10 @@ impl WedgeCurve {
     /// Mean speed of the curve, rad/s.
     pub fn speed_rad_s(&self) -> f64 {
         self.speed_rad_s
+    }
+    /// What went into it.
+    pub fn effort(&self) -> Effort {
+        self.effort
     }
     /// Number of arcs that the curve reaches.
     pub fn arc_count(&self) -> usize {
@@ -153,12 +165,17 @@ impl WedgeCurve {
     /// Relative size of what the interpolation leaves out, pure number, where N exceeds 1e-10 of its largest; 1e-5
     /// with [`Effort::Search`].
     pub fn truncation(&self) -> f64 {
+        self.truncation_of(&self.arcs)
+    }
+
+    /// The same of `arcs`, its first ones.
+    pub(super) fn truncation_of(&self, arcs: &[Arc<ArcTable>]) -> f64 {
         let skip = |k: usize| match (k, self.effort) {
             (0, Effort::Full) => 2,
             (0, Effort::Search) => lowest(self.exponent),
             _ => 0,
         };
-        self.arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k))).fold(0.0, f64::max)
+        arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k))).fold(0.0, f64::max)
     }
 
     /// Everything at `alpha`, with the functions of arc `k`, which are continued smoothly a little past its
@@ -322,10 +339,20 @@ impl WedgeCurve {
     /// Torque at which the sprag would roll over if its last arc went on, N m; the curve's own end where it
     /// rolls over already.
     pub fn roll_over_torque_nm(&self) -> f64 {
-        let k = self.arcs.len() - 1;
         if self.end == EndReason::RollsOver {
             return self.end_torque_nm();
         }
+        let torque = |n: f64| Some(self.closure_in(self.arcs.len() - 1, n)?.torque_nm(self.statics.count));
+        // What the place of a level peak moves by does not enter.
+        let level = |torque: &Dual, n: f64| (torque.d * n).abs() < LEVEL * torque.v;
+        let beside = self.near_peak_n.and_then(|n| torque(n).filter(|t| level(t, n)));
+        let peak = beside.or_else(|| torque((*self.peak_n.get_or_init(|| self.find_peak_n()))?));
+        peak.map_or(self.end_torque_nm(), |t| t.v)
+    }
+
+    /// N at which its last arc, if that went on, would carry most, N.
+    fn find_peak_n(&self) -> Option<f64> {
+        let k = self.arcs.len() - 1;
         let arc = &self.arcs[k];
         arc_end(
             &self.statics,
@@ -336,8 +363,7 @@ impl WedgeCurve {
             f64::INFINITY,
             self.effort,
         )
-        .and_then(|(n, _)| self.closure_in(k, n))
-        .map_or(self.end_torque_nm(), |c| c.torque_nm(self.statics.count).v)
+        .map(|(n, _)| n)
     }
 
     /// Equilibrium at first contact.

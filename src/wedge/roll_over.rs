@@ -265,8 +265,10 @@ impl Way {
             alpha_until: *alpha_to,
             n_from: *n_from,
             n_until: *n_to,
+            turn_until_rad: end.turn_rad(self.seats[0][0][0].profile.beta0_rad),
             torque_until_nm: end.torque_nm(self.seats[0][0][0].count).v,
             shift: seat.shift,
+            edges: Vec::new(),
             lanes,
             table,
         })
@@ -303,7 +305,8 @@ impl WedgeCurve {
     pub fn beyond(&self, brink: Option<&Brink>) -> Option<RollOver> {
         let mut curve = match self.end {
             EndReason::NotBuilt => {
-                Self::march(self.statics.clone(), self.exponent, self.speed_rad_s, None, self.effort).ok()?
+                Self::march(self.statics.clone(), self.exponent, self.speed_rad_s, None, self.effort, None)
+                    .ok()?
             }
             _ => self.clone(),
         };

@@ -63,9 +63,13 @@ pub(super) struct ArcTable {
     pub(super) alpha_until: f64,
     pub(super) n_from: f64,
     pub(super) n_until: f64,
+    /// Turn of the contact at n_until, rad.
+    pub(super) turn_until_rad: f64,
     /// Torque at n_until, N m.
     pub(super) torque_until_nm: f64,
     pub(super) shift: f64,
+    /// Where panels had to end, N.
+    pub(super) edges: Vec<Edge>,
     pub(super) lanes: Panels<LANES>,
     /// The lanes, the slopes of rho_i and rho_e by the variable of the table, the windup.
     pub(super) table: Pieces<READ>,
@@ -212,28 +216,42 @@ impl ArcBuilder<'_> {
         n_until: f64,
         windup_from: f64,
         first: bool,
+        like: Option<&ArcTable>,
     ) -> Result<ArcTable, NoClosure> {
         let end = self.closure(n_until)?;
         let alpha_until = end.alpha.v;
-        let edges = self.edges(n_from, n_until);
+        // Next to where they are a panel holds all but the second order of what they move by.
+        let edges = like.map_or_else(|| self.edges(n_from, n_until), |like| like.edges.clone());
         let (lanes, windup) = if self.effort == Effort::Search {
             self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until)?
         } else if first {
-            let (lanes, layout, edges) = self.first(n_until, &edges)?;
-            let windup = first_windup(&lanes, &layout, &edges, self.exponent);
+            let (lanes, layout, s_edges) = self.first(n_until, &edges)?;
+            let windup = first_windup(&lanes, &layout, &s_edges, self.exponent);
             (lanes, windup)
         } else {
             let alpha_from = self.closure(n_from)?.alpha.v;
             let at_alpha = |e: &Edge| Ok(Edge { at: self.closure(e.at)?.alpha.v, ..*e });
-            let edges = edges.iter().map(at_alpha).collect::<Result<Vec<_>, _>>()?;
-            let layout = Layout::new(&[alpha_from, 0.5 * (alpha_from + alpha_until), alpha_until], &edges);
+            let alpha_edges = edges.iter().map(at_alpha).collect::<Result<Vec<_>, _>>()?;
+            let layout =
+                Layout::new(&[alpha_from, 0.5 * (alpha_from + alpha_until), alpha_until], &alpha_edges);
             let lanes = self.later(&layout, n_from, n_until)?;
             let windup = later_windup(&lanes, &layout, windup_from);
             (lanes, windup)
         };
         let table = Pieces::of(&lanes, &lanes.derivative([2, 3]), &windup);
         let torque_until_nm = end.torque_nm(self.statics.count).v;
-        Ok(ArcTable { alpha_until, n_from, n_until, torque_until_nm, shift: self.shift, lanes, table })
+        let turn_until_rad = end.turn_rad(self.statics.profile.beta0_rad);
+        Ok(ArcTable {
+            alpha_until,
+            n_from,
+            n_until,
+            turn_until_rad,
+            torque_until_nm,
+            shift: self.shift,
+            edges,
+            lanes,
+            table,
+        })
     }
 
     /// Arc 1, lanes over s. alpha - alpha_0 = 10 int_0^z (z alpha_N) z^8 dz with N = z^10 keeps relative

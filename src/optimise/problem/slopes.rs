@@ -1,24 +1,25 @@
 //! Evaluations of a clutch, and the slopes of its margins beside one.
 
-use super::{ClutchProblem, StateAt, Way};
+use super::{ClutchProblem, LoadedRows, StateAt, Way};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::{Design, Link};
 use crate::fidelity;
 use crate::margin::{
-    LoadState, Margin, SceneDemand, ends_decide, load_state_at, scene_margins, scene_rows, unknown_scene_rows,
+    LoadRows, LoadState, Margin, SceneDemand, load_state_at, load_state_beside, scene_margins, scene_rows,
+    unknown_scene_rows,
 };
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
-use crate::scenario::{AtRest, Prepared, RollingTrack, demand_retraced};
+use crate::scenario::{AtRest, Prepared, RollingTrack, demand_read_again, demand_retraced};
 use rayon::prelude::*;
 use std::collections::{HashMap, VecDeque};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
-/// What an evaluation stood on: by the number of the corner its load state, by that and the name of the scene what that integrated
-/// and for which model.
+/// What an evaluation stood on: by the number of the corner its load state and the rows of that, by that number and the name of the
+/// scene what that integrated and for which model.
 #[derive(Debug, Default)]
 struct Tracks {
     states: HashMap<usize, Arc<LoadState>>,
+    loaded: HashMap<usize, LoadRows>,
     scenes: HashMap<(usize, String), (RollingTrack, Prepared)>,
 }
 
@@ -61,13 +62,6 @@ impl Clone for Recent {
     }
 }
 
-/// What the evaluation at a point says of those next to it.
-struct Here {
-    outputs: Vec<f64>,
-    /// Whether [`ends_decide`] at every corner.
-    ends_decide: bool,
-}
-
 impl ClutchProblem {
     /// The rows of a scene as a neighbour of the one whose track is given. `as_it_was`: the neighbour is that scene itself.
     fn scene_beside(
@@ -78,18 +72,22 @@ impl ClutchProblem {
         as_it_was: bool,
     ) -> Vec<Margin> {
         let moves = !matches!(scenario.kind, ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. });
-        let unknown = || unknown_scene_rows(scenario, &self.limits);
-        let retraced = |prepared: &Prepared| match demand_retraced(prepared, track.map(|(track, _)| track)) {
+        let rows = |prepared: &Prepared, found| match found {
             Some(found) => {
                 scene_rows(scenario, &SceneDemand::of(scenario, prepared, found), &self.limits, true)
             }
-            None => unknown(),
+            None => unknown_scene_rows(scenario, &self.limits),
         };
         match track {
-            None if moves => unknown(),
-            Some((_, prepared)) if as_it_was => retraced(prepared),
+            None if moves => unknown_scene_rows(scenario, &self.limits),
+            // Slopes are those of quick curves, whatever the run took.
+            Some((track, prepared)) if as_it_was && prepared.model.curve.effort() == self.effort() => {
+                rows(prepared, demand_read_again(prepared, track))
+            }
             _ => match fidelity::plan_at(scenario, Some(known), self.effort()) {
-                Ok((_, prepared)) => retraced(&prepared),
+                Ok((_, prepared)) => {
+                    rows(&prepared, demand_retraced(&prepared, track.map(|(track, _)| track)))
+                }
                 Err(_) => scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings),
             },
         }
@@ -110,42 +108,58 @@ impl ClutchProblem {
             track.map(|track| kept().scenes.insert((k, scenario.name.clone()), track));
             rows
         };
-        let assessed = self.assess_at_with(x, &Way { state: &state, scene: &scene })?;
+        let loaded = |k: usize, design: &Design, state: &LoadState| {
+            let found = self.loaded(design, state);
+            let rows = found.rows.clone();
+            kept().loaded.insert(k, found);
+            rows
+        };
+        let assessed = self.assess_at_with(x, &Way { state: &state, loaded: &loaded, scene: &scene })?;
         let tracks = tracks.into_inner().unwrap_or_else(|e| e.into_inner());
         Ok((self.evaluation(&assessed), Arc::new(tracks)))
     }
 
-    /// The evaluation that `tracks` is of, at its own `x`, with every scene as a neighbour has it.
-    fn here(&self, x: &[f64], tracks: &Tracks) -> Option<Here> {
-        let all_decide = AtomicBool::new(true);
+    /// The outputs of the evaluation that `tracks` is of, at its own `x`, with every scene as a neighbour has it.
+    fn here(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
         let build = self.state();
         let state = |k: usize, design: &Design| {
-            let state = tracks.states.get(&k).map_or_else(|| build(k, design), |state| Ok(state.clone()))?;
-            let decide = ends_decide(design, &self.limits, &state);
-            all_decide.fetch_and(decide, Ordering::Relaxed);
-            Ok(Arc::new(LoadState { ends_alone: decide, ..LoadState::clone(&state) }))
+            let known = tracks.states.get(&k).cloned().map_or_else(|| build(k, design), Ok)?;
+            Ok(Arc::new(LoadState { at_speeds: known.at_speeds.for_slopes(), ..(*known).clone() }))
         };
-        let outputs = self.retraced(x, tracks, &state, true)?;
-        Some(Here { outputs, ends_decide: all_decide.into_inner() })
+        let loaded = |k: usize, design: &Design, state: &LoadState| {
+            tracks.loaded.get(&k).map_or_else(|| self.loaded(design, state).rows, |found| found.rows.clone())
+        };
+        self.retraced(x, tracks, (&state, &loaded), true)
     }
 
-    /// The same at a neighbour `x` of the one that `here` is.
-    fn beside(&self, x: &[f64], tracks: &Tracks, here: &Here) -> Option<Vec<f64>> {
-        let state = |_: usize, design: &Design| {
-            let state = load_state_at(design, self.effort())?;
-            Ok(Arc::new(LoadState { ends_alone: here.ends_decide, ..state }))
+    /// The same at a neighbour `x` of it.
+    fn beside(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
+        let state = |k: usize, design: &Design| {
+            let state = match tracks.states.get(&k) {
+                Some(like) => load_state_beside(design, self.effort(), like),
+                None => load_state_at(design, self.effort()),
+            }?;
+            let looks = tracks.loaded.get(&k).map(|found| found.deciding.clone());
+            Ok(Arc::new(LoadState { looks, ..state }))
         };
-        self.retraced(x, tracks, &state, false)
+        let loaded = |_: usize, design: &Design, state: &LoadState| self.loaded(design, state).rows;
+        self.retraced(x, tracks, (&state, &loaded), false)
     }
 
-    /// Outputs at `x` with load states as `state` has them and every scene as the neighbour of the one in `tracks`; NaN where that has
+    /// Outputs at `x` with these load states and rows of them, and every scene as the neighbour of the one in `tracks`; NaN where that has
     /// none.
-    fn retraced(&self, x: &[f64], tracks: &Tracks, state: &StateAt, as_it_was: bool) -> Option<Vec<f64>> {
+    fn retraced(
+        &self,
+        x: &[f64],
+        tracks: &Tracks,
+        (state, loaded): (&StateAt, &LoadedRows),
+        as_it_was: bool,
+    ) -> Option<Vec<f64>> {
         let scene = |k: usize, scenario: &Scenario, known: AtRest| {
             let track = tracks.scenes.get(&(k, scenario.name.clone()));
             self.scene_beside(scenario, known, track, as_it_was)
         };
-        let assessed = self.assess_at_with(x, &Way { state, scene: &scene }).ok()?;
+        let assessed = self.assess_at_with(x, &Way { state, loaded, scene: &scene }).ok()?;
         Some(self.evaluation(&assessed).outputs())
     }
 }
@@ -176,10 +190,8 @@ impl Evaluate for ClutchProblem {
             None => self.tracked(x).ok()?.1,
         };
         let here = self.here(x, &tracks)?;
-        let change = |at: &Vec<f64>| match self.beside(at, &tracks, &here) {
-            Some(there) if there.len() == here.outputs.len() => {
-                there.iter().zip(&here.outputs).map(|(b, a)| b - a).collect()
-            }
+        let change = |at: &Vec<f64>| match self.beside(at, &tracks) {
+            Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
             _ => Vec::new(),
         };
         let changes: Vec<Vec<f64>> = beside.par_iter().map(change).collect();
