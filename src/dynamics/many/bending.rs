@@ -22,6 +22,7 @@
 use super::{EACH, HEAD, SpragGroup, SpragMotion};
 use crate::dynamics::model::{Model, Place};
 use crate::numeric::panels::Panels;
+use crate::numeric::pieces::Pieces;
 use crate::numeric::{quadrature, root};
 use crate::wedge::{WedgeCurve, WedgePoint};
 use std::sync::Arc;
@@ -36,6 +37,11 @@ const MOST: usize = 60;
 const SOLVED: f64 = 1e-14;
 /// The same where rounding lets it come no nearer: at a junction N of one arc goes over into that of the next.
 const NEARLY: f64 = 1e-11;
+/// Coefficients of the series of a root beside one that is known, and up to which part of that they are enough: 0.08^13/(9 13) = 5e-17.
+const SERIES: usize = 12;
+const BESIDE: f64 = 0.08;
+/// Columns that are added at a time.
+const COLUMNS: usize = 4;
 /// A step that is not this much shorter than the one before asks for new slopes.
 const SLOW: f64 = 0.1;
 
@@ -44,16 +50,18 @@ const SLOW: f64 = 0.1;
 pub struct SpragApproach {
     alpha0: f64,
     exponent: f64,
+    /// ((1 + e)^(1/q) - 1)/e by powers of e.
+    series: [f64; SERIES],
     /// D' at first contact, m/rad, and at the end of the last place.
     slopes: [f64; 2],
-    /// D/x over s = x^(1/q) on the first arc, x = alpha - alpha_0; D over alpha on the others.
-    by_alpha: Vec<Panels<1>>,
+    /// D/x and (D/x)^(1/q) over s = x^(1/q) on the first arc, x = alpha - alpha_0; D over alpha on the others, and nothing.
+    by_alpha: Vec<Pieces<2>>,
     /// Where arcs end, m.
     ends: Vec<f64>,
     /// z from which on N^0.1/z and its slope are tabled over z = D^(1/q), and that ratio there.
     begins: [f64; 2],
     /// That table of the first arc; N (N) and its slope (N/m) over D on the others.
-    by_approach: Vec<Panels<2>>,
+    by_approach: Vec<Pieces<2>>,
 }
 
 /// D' at `p`, m/rad.
@@ -88,13 +96,16 @@ impl SpragApproach {
                 .map(|s| quadrature::integral(s, s + piece, rate))
                 .sum::<f64>()
         };
-        let first: Result<Panels<1>, ()> =
-            Panels::build(&between(roots), |s| Ok([(near * NEAR_RAD + way(roots[0], s)) / s.powf(q)]));
+        let first: Result<Panels<2>, ()> = Panels::build(&between(roots), |s| {
+            let part = (near * NEAR_RAD + way(roots[0], s)) / s.powf(q);
+            Ok([part, part.powf(1.0 / q)])
+        });
         let mut found = Self {
             alpha0,
             exponent: q,
+            series: series(1.0 / q),
             slopes: [near; 2],
-            by_alpha: vec![first.ok()?],
+            by_alpha: vec![Pieces::of_all(&first.ok()?)],
             ends: Vec::new(),
             begins: [0.0; 2],
             by_approach: Vec::new(),
@@ -109,9 +120,9 @@ impl SpragApproach {
             let to = |alpha: f64| {
                 if alpha <= middle { half(from, alpha) } else { half(from, middle) + half(middle, alpha) }
             };
-            let panels: Result<Panels<1>, ()> =
-                Panels::build(&[from, middle, until], |alpha| Ok([before + to(alpha)]));
-            found.by_alpha.push(panels.ok()?);
+            let panels: Result<Panels<2>, ()> =
+                Panels::build(&[from, middle, until], |alpha| Ok([before + to(alpha), 0.0]));
+            found.by_alpha.push(Pieces::of_all(&panels.ok()?));
             found.ends.push(found.at(k, until));
         }
         for k in 0..curve.arc_count() {
@@ -141,7 +152,7 @@ impl SpragApproach {
             if k == 0 {
                 found.begins = [breaks[0], values.at(breaks[0])[0]];
             }
-            found.by_approach.push(both.ok()?);
+            found.by_approach.push(Pieces::of_all(&both.ok()?));
         }
         let last = curve.arc_count() - 1;
         found.ends.truncate(last + 1);
@@ -151,19 +162,43 @@ impl SpragApproach {
 
     /// D at `alpha` (rad) with the functions of arc `k`, m; straight on below first contact.
     pub fn at(&self, k: usize, alpha: f64) -> f64 {
+        let mut nowhere = NO_ROOT;
+        self.rooted(k, alpha, &mut nowhere).0
+    }
+
+    /// The same with D^(1/q) where that comes by the way; `last`: a root of alpha - alpha_0 near by.
+    fn rooted(&self, k: usize, alpha: f64, last: &mut KnownRoot) -> (f64, Option<f64>) {
         if k > 0 {
-            return self.by_alpha[k].at(alpha)[0];
+            return (self.by_alpha[k].at(alpha)[0], None);
         }
         let x = alpha - self.alpha0;
         if x <= NEAR_RAD {
-            self.slopes[0] * x
-        } else {
-            x * self.by_alpha[0].at(x.powf(1.0 / self.exponent))[0]
+            return (self.slopes[0] * x, None);
         }
+        let s = self.root(x, last);
+        let [part, root] = self.by_alpha[0].at(s);
+        (x * part, Some(s * root))
+    }
+
+    /// x^(1/q), by the series beside `last` where that is near.
+    fn root(&self, x: f64, last: &mut KnownRoot) -> f64 {
+        let beside = (x - last.of) / last.of;
+        if beside.abs() < BESIDE {
+            return last.root
+                * (1.0 + beside * self.series.iter().rev().fold(0.0, |sum, c| sum * beside + c));
+        }
+        *last = KnownRoot { of: x, root: x.powf(1.0 / self.exponent) };
+        last.root
     }
 
     /// N_bi at the approach `d` (m), N, and its slope, N/m.
     pub fn normal(&self, d: f64) -> (f64, f64) {
+        self.normal_by(d, |d| d.powf(1.0 / self.exponent))
+    }
+
+    /// The same, `root` (of what is asked for, m) its 1/q-th power.
+    #[inline(always)]
+    fn normal_by(&self, d: f64, root: impl FnOnce(f64) -> f64) -> (f64, f64) {
         if d <= 0.0 {
             return (0.0, 0.0);
         }
@@ -174,7 +209,7 @@ impl SpragApproach {
             let [n, slope] = self.by_approach[k].at(within);
             (n, slope)
         } else {
-            let z = within.powf(1.0 / self.exponent);
+            let z = root(within);
             let [r, bend] =
                 if z <= self.begins[0] { [self.begins[1], 0.0] } else { self.by_approach[0].at(z) };
             let n = (z * r).powi(10);
@@ -208,6 +243,39 @@ impl SpragApproach {
     }
 }
 
+/// A number and its root.
+#[derive(Debug, Clone, Copy)]
+struct KnownRoot {
+    of: f64,
+    root: f64,
+}
+
+/// Near nothing.
+const NO_ROOT: KnownRoot = KnownRoot { of: f64::NAN, root: f64::NAN };
+
+/// ((1 + e)^p - 1)/e by powers of e.
+fn series(p: f64) -> [f64; SERIES] {
+    let mut term = 1.0;
+    std::array::from_fn(|k| {
+        term *= (p - k as f64) / (k + 1) as f64;
+        term
+    })
+}
+
+/// `sum` becomes the matrix of these `columns` times `x`, [`COLUMNS`] at a time; all are as long as a whole number of these.
+fn multiply(columns: &[f64], x: &[f64], sum: &mut [f64]) {
+    let n = sum.len();
+    sum.fill(0.0);
+    for (four, [u, v, w, x]) in columns.chunks_exact(COLUMNS * n).zip(x.as_chunks::<COLUMNS>().0) {
+        let (a, four) = four.split_at(n);
+        let (b, four) = four.split_at(n);
+        let (c, d) = four.split_at(n);
+        for ((((sum, a), b), c), d) in sum.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+            *sum += (a * u + b * v) + (c * w + d * x);
+        }
+    }
+}
+
 /// Races that bend between groups of one sprag each.
 #[derive(Debug, Clone)]
 pub struct Rings {
@@ -219,10 +287,26 @@ pub struct Rings {
     pub lowest_mode_hz: [f64; 2],
 }
 
+/// Work of finding it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct BendingWork {
+    /// Places of all sprags at which it was sought.
+    pub solutions: u64,
+    /// Forces of all and what the tracks recede by them.
+    pub passes: u64,
+    /// Steps by the inverse of the slopes.
+    pub products: u64,
+    /// Inverses of them.
+    pub inversions: u64,
+}
+
 /// What the races' bending is where the sprags stand now; solved anew where they stand otherwise.
 #[derive(Debug, Clone)]
 pub(super) struct Bent<'a> {
     rings: &'a Rings,
+    /// M by rows, filled up with zeros to a whole number of [`COLUMNS`], as are all matrices and what they are multiplied with.
+    opens: Vec<f64>,
+    side: usize,
     /// Where it was solved.
     alphas: Vec<f64>,
     /// Whether each carries where pressed, and its arc.
@@ -232,6 +316,8 @@ pub(super) struct Bent<'a> {
     /// D(alpha), m; N(D), N.
     approach: Vec<f64>,
     own_n: Vec<f64>,
+    /// Of alpha - alpha_0 and of h, near by.
+    roots: [Vec<KnownRoot>; 2],
     /// h, m; N(h), N; its slope, N/m; u, m.
     h: Vec<f64>,
     normal: Vec<f64>,
@@ -239,32 +325,42 @@ pub(super) struct Bent<'a> {
     recede: Vec<f64>,
     step: Vec<f64>,
     between: Vec<f64>,
-    /// I + M diag(N'), factored.
-    factors: Vec<f64>,
+    /// (I + M diag(N'))^-1 by columns.
+    inverse: Vec<f64>,
     order: Vec<usize>,
-    factored: bool,
+    inverted: bool,
+    pub(super) work: BendingWork,
 }
 
 impl<'a> Bent<'a> {
     pub(super) fn new(rings: &'a Rings) -> Self {
         let n = rings.approaches.len();
-        let zeros = || vec![0.0; n];
+        let side = n.next_multiple_of(COLUMNS);
+        let mut opens = vec![0.0; side * side];
+        for (to, from) in opens.chunks_mut(side.max(1)).zip(rings.opens_m_per_n.chunks(n.max(1))) {
+            to[..n].copy_from_slice(from);
+        }
+        let zeros = || vec![0.0; side];
         Self {
             rings,
+            opens,
+            side,
             alphas: vec![f64::NAN; n],
             seats: vec![None; n],
             near: false,
-            approach: zeros(),
-            own_n: zeros(),
-            h: zeros(),
+            approach: vec![0.0; n],
+            own_n: vec![0.0; n],
+            roots: [vec![NO_ROOT; n], vec![NO_ROOT; n]],
+            h: vec![0.0; n],
             normal: zeros(),
             slopes: zeros(),
             recede: zeros(),
             step: zeros(),
             between: zeros(),
-            factors: vec![0.0; n * n],
-            order: (0..n).collect(),
-            factored: false,
+            inverse: vec![0.0; side * side],
+            order: (0..side).collect(),
+            inverted: false,
+            work: BendingWork::default(),
         }
     }
 
@@ -292,20 +388,23 @@ impl<'a> Bent<'a> {
         let k = seat.unwrap_or_else(|| model.curve.arc_at(alpha).min(of.by_alpha.len() - 1));
         self.near &= self.seats[g] == seat;
         (self.alphas[g], self.seats[g]) = (alpha, seat);
-        self.approach[g] = of.at(k, alpha);
-        self.own_n[g] = of.normal(self.approach[g]).0;
+        let (d, root) = of.rooted(k, alpha, &mut self.roots[0][g]);
+        self.approach[g] = d;
+        // Beyond the end of its curve the root is asked for at that end.
+        let known = |of: f64| root.filter(|_| of == d);
+        self.own_n[g] =
+            of.normal_by(d, |within| known(within).unwrap_or_else(|| within.powf(1.0 / of.exponent))).0;
         true
     }
 
     /// Newton's method for h; without a solution forces are no numbers.
     pub(super) fn solve(&mut self) {
         let n = self.h.len();
+        self.work.solutions += 1;
         if self.near {
             // From what was solved last along the tangents there.
-            for i in 0..n {
-                self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
-            }
-            self.substitute();
+            self.miss();
+            self.lead_on();
             self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
         } else {
             for i in 0..n {
@@ -313,7 +412,7 @@ impl<'a> Bent<'a> {
             }
         }
         let solved = self.newton() || {
-            self.factored = false;
+            self.inverted = false;
             self.h.copy_from_slice(&self.approach);
             self.newton()
         };
@@ -325,27 +424,33 @@ impl<'a> Bent<'a> {
                 self.recede[i] = self.approach[i] - self.h[i];
             }
         } else {
-            self.factored = false;
+            self.inverted = false;
             self.alphas.fill(f64::NAN);
-            self.normal.fill(f64::NAN);
+            self.normal[..n].fill(f64::NAN);
             self.recede.fill(0.0);
+        }
+    }
+
+    /// `step` becomes what h misses.
+    fn miss(&mut self) {
+        let n = self.h.len();
+        self.step[n..].fill(0.0);
+        for i in 0..n {
+            self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
         }
     }
 
     /// Its steps, from h on; whether they come to an end.
     fn newton(&mut self) -> bool {
-        let n = self.h.len();
         let scale = self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max);
         let mut last = f64::INFINITY;
         for _ in 0..MOST {
             self.forces();
-            for i in 0..n {
-                self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
-            }
-            if !self.factored && !self.factor() {
+            self.miss();
+            if !self.inverted && !self.invert() {
                 return false;
             }
-            self.substitute();
+            self.lead_on();
             let size = self.step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
             // A largest one knows no NaN, and once kept it would stay: a trial step may stand anywhere.
             if !self.step.iter().all(|step| step.is_finite()) {
@@ -361,7 +466,7 @@ impl<'a> Bent<'a> {
                 // It has gone too far: half of it back.
                 self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h += 0.5 * step);
             }
-            self.factored = size <= SLOW * last;
+            self.inverted = size <= SLOW * last;
             last = size;
         }
         false
@@ -369,72 +474,66 @@ impl<'a> Bent<'a> {
 
     /// N, its slope and u at h.
     fn forces(&mut self) {
-        let n = self.h.len();
+        self.work.passes += 1;
         for (j, seat) in self.seats.iter().enumerate() {
+            let (of, last) = (&self.rings.approaches[j], &mut self.roots[1][j]);
             (self.normal[j], self.slopes[j]) = match seat {
-                Some(_) => self.rings.approaches[j].normal(self.h[j]),
+                Some(_) => of.normal_by(self.h[j], |d| of.root(d, last)),
                 None => (0.0, 0.0),
             };
         }
-        // By columns, which are the rows.
-        self.recede.fill(0.0);
-        for (normal, row) in self.normal.iter().zip(self.rings.opens_m_per_n.chunks(n)) {
-            self.recede.iter_mut().zip(row).for_each(|(recede, m)| *recede += m * normal);
-        }
+        // Its columns are its rows.
+        multiply(&self.opens, &self.normal, &mut self.recede);
     }
 
-    /// I + M diag(N') into its triangles, rows exchanged; false: singular.
-    fn factor(&mut self) -> bool {
-        let n = self.h.len();
+    /// (I + M diag(N'))^-1 by columns, those of its transpose I + diag(N') M by rows: Gauss and Jordan's elimination, rows exchanged;
+    /// false: singular.
+    fn invert(&mut self) -> bool {
+        self.work.inversions += 1;
+        let (n, a) = (self.side, &mut self.inverse);
         for i in 0..n {
-            self.order[i] = i;
             for j in 0..n {
-                let one = f64::from(u8::from(i == j));
-                self.factors[i * n + j] = one + self.rings.opens_m_per_n[i * n + j] * self.slopes[j];
+                a[i * n + j] = f64::from(u8::from(i == j)) + self.slopes[i] * self.opens[i * n + j];
             }
         }
         for k in 0..n {
             let mut best = k;
             for i in k + 1..n {
-                if self.factors[i * n + k].abs() > self.factors[best * n + k].abs() {
+                if a[i * n + k].abs() > a[best * n + k].abs() {
                     best = i;
                 }
             }
-            let pivot = self.factors[best * n + k];
+            let pivot = a[best * n + k];
             if pivot == 0.0 || !pivot.is_finite() {
                 return false;
             }
+            self.order[k] = best;
             if best != k {
-                self.order.swap(k, best);
                 for j in 0..n {
-                    self.factors.swap(k * n + j, best * n + j);
+                    a.swap(k * n + j, best * n + j);
                 }
             }
-            let (above, below) = self.factors.split_at_mut((k + 1) * n);
-            for row in below.chunks_mut(n) {
-                let part = row[k] / pivot;
-                row[k] = part;
-                let from = &above[k * n + k + 1..];
-                row[k + 1..].iter_mut().zip(from).for_each(|(f, of)| *f -= part * of);
+            a[k * n + k] = 1.0;
+            let row = &mut a[k * n..(k + 1) * n];
+            row.iter_mut().for_each(|f| *f /= pivot);
+            self.between.copy_from_slice(row);
+            for (_, row) in a.chunks_exact_mut(n).enumerate().filter(|(i, _)| *i != k) {
+                let part = std::mem::replace(&mut row[k], 0.0);
+                row.iter_mut().zip(&self.between).for_each(|(f, of)| *f -= part * of);
             }
         }
-        self.factored = true;
+        for k in (0..n).rev().filter(|&k| self.order[k] != k) {
+            a.chunks_exact_mut(n).for_each(|row| row.swap(k, self.order[k]));
+        }
+        self.inverted = true;
         true
     }
 
-    /// `step` becomes what the factored system has for it.
-    fn substitute(&mut self) {
-        let n = self.h.len();
-        for i in 0..n {
-            let row = &self.factors[i * n..i * n + i];
-            let known: f64 = row.iter().zip(&self.between).map(|(f, x)| f * x).sum();
-            self.between[i] = self.step[self.order[i]] - known;
-        }
-        for i in (0..n).rev() {
-            let row = &self.factors[i * n + i + 1..(i + 1) * n];
-            let known: f64 = row.iter().zip(&self.step[i + 1..]).map(|(f, x)| f * x).sum();
-            self.step[i] = (self.between[i] - known) / self.factors[i * n + i];
-        }
+    /// `step` from what h misses to what takes it away along the tangents there were.
+    fn lead_on(&mut self) {
+        self.work.products += 1;
+        multiply(&self.inverse, &self.step, &mut self.between);
+        std::mem::swap(&mut self.step, &mut self.between);
     }
 
     /// N_i - N_own of group `g`, N.

@@ -42,7 +42,7 @@ mod touch;
 mod watch;
 
 pub use axes::{Axes, AxisBearing, OffCentre, StaysWith};
-pub use bending::{Rings, SpragApproach};
+pub use bending::{BendingWork, Rings, SpragApproach};
 pub use found::{FirstSlip, ManyRun, ManySample, SpragCourse};
 pub use run::run_many;
 pub use start::{settled_off_centre, settled_together};
