@@ -25,6 +25,7 @@ use crate::numeric::panels::Panels;
 use crate::numeric::pieces::Pieces;
 use crate::numeric::{quadrature, root};
 use crate::wedge::{WedgeCurve, WedgePoint};
+use nalgebra::DMatrix;
 use std::sync::Arc;
 
 /// From here on, rad from first contact, a curve's geometry is its own: nearer it is read level. Below, D is straight and N a power of it.
@@ -37,6 +38,12 @@ const MOST: usize = 60;
 const SOLVED: f64 = 1e-14;
 /// The same where rounding lets it come no nearer: at a junction N of one arc goes over into that of the next.
 const NEARLY: f64 = 1e-11;
+/// What may be missed where Newton's method goes on by itself, as a part of the approach at the curve's end, and the least part of a step
+/// that is tried on the way there.
+const NEAR: f64 = 1e-3;
+const LEAST_PART: f64 = 1e-6;
+/// Places on an arc where the slope of N is looked at.
+const SLOPES: u32 = 64;
 /// Coefficients of the series of a root beside one that is known, and up to which part of that they are enough: 0.08^13/(9 13) = 5e-17.
 const SERIES: usize = 12;
 const BESIDE: f64 = 0.08;
@@ -218,6 +225,15 @@ impl SpragApproach {
         (n + slope * (d - within), slope)
     }
 
+    /// The steepest slope of N, N/m.
+    fn steepest(&self) -> f64 {
+        let starts = std::iter::once(0.0).chain(self.ends.iter().copied());
+        let looks = starts.zip(&self.ends).flat_map(|(from, until)| {
+            (1..=SLOPES).map(move |i| from + f64::from(i) / f64::from(SLOPES) * (until - from))
+        });
+        looks.map(|d| self.normal(d).1).fold(0.0, f64::max)
+    }
+
     /// alpha, rad, at which the approach is `d`, m, near first contact.
     fn alpha_at(&self, d: f64) -> f64 {
         let mut x = d / self.slopes[0];
@@ -285,6 +301,18 @@ pub struct Rings {
     pub approaches: Vec<Arc<SpragApproach>>,
     /// Lowest mode of inner and outer race, Hz.
     pub lowest_mode_hz: [f64; 2],
+}
+
+impl Rings {
+    /// Whether there is one force of each sprag wherever all of them stand: I + M diag(N') has the eigenvalues of I + N'^1/2 M N'^1/2, above 0
+    /// where the least one of M times the steepest N' is above -1. It is not where a law of contact is stiffer than what even sprags bend
+    /// the rings, which it should contain: two sprags under law `roller`.
+    pub fn has_one_solution(&self) -> bool {
+        let n = self.approaches.len();
+        let least = DMatrix::from_row_slice(n, n, &self.opens_m_per_n).symmetric_eigenvalues().min();
+        let steepest = self.approaches.iter().map(|of| of.steepest()).fold(0.0, f64::max);
+        least * steepest > -1.0
+    }
 }
 
 /// Work of finding it.
@@ -411,11 +439,7 @@ impl<'a> Bent<'a> {
                 self.h[i] = self.approach[i] - self.recede[i];
             }
         }
-        let solved = self.newton() || {
-            self.inverted = false;
-            self.h.copy_from_slice(&self.approach);
-            self.newton()
-        };
+        let solved = self.newton() || self.come_near() && self.newton();
         self.near = solved;
         if solved {
             // Along the tangents of the last step, which leaves its square.
@@ -442,7 +466,7 @@ impl<'a> Bent<'a> {
 
     /// Its steps, from h on; whether they come to an end.
     fn newton(&mut self) -> bool {
-        let scale = self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max);
+        let scale = self.scale();
         let mut last = f64::INFINITY;
         for _ in 0..MOST {
             self.forces();
@@ -470,6 +494,50 @@ impl<'a> Bent<'a> {
             last = size;
         }
         false
+    }
+
+    /// From afar: h along the tangents where it stands, each step halved until less is missed, up to where Newton's method does the rest.
+    /// Whether it comes there: with one solution ([`Rings::has_one_solution`]) it does.
+    fn come_near(&mut self) -> bool {
+        self.h.copy_from_slice(&self.approach);
+        self.forces();
+        self.miss();
+        let missed = |step: &[f64]| step.iter().map(|miss| miss * miss).sum::<f64>();
+        let (mut left, near) = (missed(&self.step), NEAR * self.scale());
+        for _ in 0..MOST {
+            if left <= near * near {
+                self.inverted = false;
+                return true;
+            }
+            if !self.invert() {
+                return false;
+            }
+            self.lead_on();
+            let (from, step, mut part) = (self.h.clone(), self.step.clone(), 1.0);
+            loop {
+                self.h
+                    .iter_mut()
+                    .zip(from.iter().zip(&step))
+                    .for_each(|(h, (from, step))| *h = from - part * step);
+                self.forces();
+                self.miss();
+                let there = missed(&self.step);
+                if there < left {
+                    left = there;
+                    break;
+                }
+                part *= 0.5;
+                if part < LEAST_PART {
+                    return false;
+                }
+            }
+        }
+        false
+    }
+
+    /// Approach at the end of the longest curve, m.
+    fn scale(&self) -> f64 {
+        self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max)
     }
 
     /// N, its slope and u at h.
@@ -563,12 +631,14 @@ impl<'a> Bent<'a> {
     }
 }
 
-/// `point` of a sprag that is pressed by `more_n` (N) more than on its own curve, alpha `below_rad` below first contact.
+/// `point` of a sprag that is pressed by `more_n` (N) more than on its own curve, alpha `below_rad` below first contact, from where on the
+/// geometry is level: OC_g goes on with its slope there.
 pub(super) fn pressed(mut point: WedgePoint, more_n: f64, below_rad: f64) -> WedgePoint {
     point.t_static += more_n * ratio(&point);
     // Where contact is lost it is nothing but rounding.
     point.n_bi = (point.n_bi + more_n).max(0.0);
     point.windup -= (point.rho_i + point.rho_e) * below_rad;
+    point.oc_g -= point.oc_g_slope * below_rad;
     point
 }
 
@@ -578,22 +648,32 @@ mod tests {
     use crate::clutch::Sharing;
     use crate::design::Design;
     use crate::sprags::Many;
+    use nalgebra::DMatrix;
+
+    fn unlike() -> Many {
+        let design =
+            Design::parse(include_str!("../../../designs/huang2017-multi-arc.toml"), "m.toml").unwrap();
+        let sharing = Sharing { seed: 1, size_within_m: 3e-6, ..Sharing::default() };
+        Many::bending(design.scenario("low-6").unwrap(), &sharing).unwrap()
+    }
+
+    /// Each so far beyond its first contact, rad; what presses them, N.
+    fn stand(many: &Many, bent: &mut Bent<'_>, beyond: &[f64]) -> Vec<f64> {
+        for (g, (group, beyond)) in many.groups.iter().zip(beyond).enumerate() {
+            let curve = &group.model.curve;
+            let alpha = curve.first_contact_rad() + beyond;
+            bent.place(g, alpha, Some(curve.arc_at(alpha).min(curve.arc_count() - 1)), &group.model);
+        }
+        bent.solve();
+        bent.normal[..beyond.len()].to_vec()
+    }
 
     /// Trial steps stand where there is nothing: what is sought after one is what it would have been without.
     #[test]
     fn a_place_without_a_solution_leaves_nothing_behind() {
-        let design =
-            Design::parse(include_str!("../../../designs/huang2017-multi-arc.toml"), "m.toml").unwrap();
-        let sharing = Sharing { seed: 1, size_within_m: 3e-6, ..Sharing::default() };
-        let many = Many::bending(design.scenario("low-6").unwrap(), &sharing).unwrap();
+        let many = unlike();
         let rings = many.rings.as_ref().unwrap();
-        let stand = |bent: &mut Bent<'_>, alpha: f64| {
-            for (g, group) in many.groups.iter().enumerate() {
-                bent.place(g, group.model.curve.first_contact_rad() + alpha, Some(0), &group.model);
-            }
-            bent.solve();
-            bent.normal.clone()
-        };
+        let stand = |bent: &mut Bent<'_>, alpha: f64| stand(&many, bent, &[alpha; 12]);
         let (mut once, mut again) = (Bent::new(rings), Bent::new(rings));
         let expected = stand(&mut once, 0.02);
         for nowhere in [f64::NAN, f64::INFINITY, 1e200, -1e200] {
@@ -608,5 +688,46 @@ mod tests {
         for (found, expected) in stand(&mut again, 0.02).iter().zip(&expected) {
             assert!((found / expected - 1.0).abs() < 1e-12 && *expected > 100.0, "{found} {expected}");
         }
+    }
+
+    /// Races that would bend so that M N' comes to -0.98 where N is steepest: the inverse is one to rounding, and a place is found from anywhere,
+    /// some of the sprags off.
+    #[test]
+    fn bends_at_the_brink_of_what_has_one_solution_are_solved() {
+        let many = unlike();
+        let mut rings = many.rings.clone().unwrap();
+        assert!(rings.has_one_solution());
+        let n = rings.approaches.len();
+        let most = DMatrix::from_row_slice(n, n, &rings.opens_m_per_n).symmetric_eigenvalues().max();
+        let steepest = rings.approaches.iter().map(|of| of.steepest()).fold(0.0, f64::max);
+        rings.opens_m_per_n.iter_mut().for_each(|m| *m *= -0.98 / (most * steepest));
+        assert!(rings.has_one_solution());
+        let curve = &many.groups[0].model.curve;
+        let whole = curve.arc_end_rad(curve.arc_count() - 1) - curve.first_contact_rad();
+        let mut random = fastrand::Rng::with_seed(1);
+        let mut off = 0;
+        for _ in 0..200 {
+            let mut bent = Bent::new(&rings);
+            let size = random.f64();
+            let beyond: Vec<f64> = (0..n).map(|_| size * whole * random.f64()).collect();
+            let normal = stand(&many, &mut bent, &beyond);
+            off += normal.iter().filter(|n| **n == 0.0).count();
+            for i in 0..n {
+                let recedes: f64 = (0..n).map(|j| rings.opens_m_per_n[i * n + j] * normal[j]).sum();
+                let expected = rings.approaches[i].normal(bent.approach[i] - recedes).0;
+                assert!((normal[i] - expected).abs() < 1e-9 * (expected + 1.0), "{} {expected}", normal[i]);
+            }
+            bent.slopes[..n].fill(steepest);
+            assert!(bent.invert());
+            let x: Vec<f64> = (0..bent.side).map(|_| random.f64()).collect();
+            let (mut of, mut back) = (vec![0.0; bent.side], vec![0.0; bent.side]);
+            super::multiply(&bent.opens, &x, &mut of);
+            of.iter_mut().zip(&x).for_each(|(of, x)| *of = x + steepest * *of);
+            super::multiply(&bent.inverse, &of, &mut back);
+            assert!(back.iter().zip(&x).all(|(back, x)| (back - x).abs() < 1e-13 / 0.02), "{back:?} {x:?}");
+        }
+        assert!(off > 0);
+        rings.opens_m_per_n.iter_mut().for_each(|m| *m *= 1.03);
+        assert!(!rings.has_one_solution());
     }
 }

@@ -352,3 +352,32 @@ impl<const N: usize> Going<'_, N> {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::crest;
+
+    /// A smooth top is told as nearly as is claimed or not at all, a kink is not taken for one.
+    #[test]
+    fn a_top_between_looks_is_told_to_what_is_claimed() {
+        let fine = 1e-12;
+        let looks = |of: &dyn Fn(f64) -> f64, width: f64| -> Vec<(f64, f64)> {
+            [-1.0, -0.4, 0.15, 0.5, 0.62, 0.9, 1.1].map(|x| (width * x, of(width * x))).to_vec()
+        };
+        let skew = |x: f64| 1.0 / (1.0 + x * x * (1.0 + 0.5 * x));
+        let kink = |x: f64| 1.0 - x.abs().powf(1.5);
+        let mut told = 0;
+        for i in 0..40 {
+            let width = 0.8_f64.powi(i);
+            let within = [-width, width];
+            if let Some((at, value)) = crest(looks(&skew, width), 0.1 * width, within, 0.01 * width, fine) {
+                told += 1;
+                assert!((value - 1.0).abs() < 2.0 * fine, "{width}: {at} {value}");
+            }
+            assert!(
+                width < 1e-6 || crest(looks(&kink, width), 0.1 * width, within, 0.01 * width, fine).is_none()
+            );
+        }
+        assert!((10..40).contains(&told), "{told}");
+    }
+}
