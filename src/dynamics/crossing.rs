@@ -3,7 +3,7 @@
 //! A rolling contact whose ratio jumps must give alpha', phi' a jump too. The jump is the limit of a fast smooth
 //! change: momenta of all coordinates but alpha are kept, and so is kinetic energy, hence
 //! alpha'+ = alpha'- sqrt(m-/m+) with the effective mass m = M_aa - M_ar M_rr^-1 M_ra of the rolling system.
-//! Without rolling contacts nothing jumps but where OC_g does, as between races that bend.
+//! Without rolling contacts nothing jumps.
 //!
 //! A race that its flange moves at a given speed u keeps that, whatever impulse it takes. Where it rolls it ties phi to alpha
 //! (phi' = u + rho_i alpha' at A, u - rho_e alpha' at B), so that the kinetic energy becomes m alpha'^2/2 + g u alpha' + c u^2/2.
@@ -16,9 +16,6 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::model::{Grip, Mode, Model, Place};
 use crate::wedge::WedgePoint;
-
-/// OC_g at both sides of a junction as a part of it, where it is one.
-const SAME: f64 = 1e-8;
 
 /// Rates after the change from `before` to `after`; both points lie at the same alpha.
 pub(super) fn cross(
@@ -54,7 +51,7 @@ pub(super) fn cross_between(
     races: &Matrix2<f64>,
 ) -> [f64; 4] {
     let [inner, outer] = rolling(mode_after);
-    if !inner && !outer && (before.oc_g - after.oc_g).abs() <= SAME * before.oc_g {
+    if !inner && !outer {
         return rates;
     }
     let (m_before, coupling_before, _) = reduced(model, times, before, inner, outer, races);

@@ -631,14 +631,12 @@ impl<'a> Bent<'a> {
     }
 }
 
-/// `point` of a sprag that is pressed by `more_n` (N) more than on its own curve, alpha `below_rad` below first contact, from where on the
-/// geometry is level: OC_g goes on with its slope there.
+/// `point` of a sprag that is pressed by `more_n` (N) more than on its own curve, alpha `below_rad` below first contact.
 pub(super) fn pressed(mut point: WedgePoint, more_n: f64, below_rad: f64) -> WedgePoint {
     point.t_static += more_n * ratio(&point);
     // Where contact is lost it is nothing but rounding.
     point.n_bi = (point.n_bi + more_n).max(0.0);
     point.windup -= (point.rho_i + point.rho_e) * below_rad;
-    point.oc_g -= point.oc_g_slope * below_rad;
     point
 }
 
