@@ -148,7 +148,7 @@ fn scenes_drawn_by_chance_keep_their_energy_and_do_not_depend_on_threads() {
             if i >= scenes {
                 return all;
             }
-            all.push((first + i, found(first + i, (i % 4 == 0).then_some(&pools))));
+            all.push((first + i, found(first + i, i.is_multiple_of(4).then_some(&pools))));
         }
     };
     let mut seen = std::thread::scope(|scope| {
