@@ -39,8 +39,9 @@ mod zeno;
 pub use drive::{Drive, FlangeDrive, Loads, Ramp};
 pub use energy::EnergyBalance;
 pub use many::{
-    Axes, AxisBearing, FirstSlip, ManyRun, ManySample, ManyStart, OffCentre, Rings, SpragApproach,
-    SpragCourse, SpragGroup, SpragMotion, StaysWith, run_many, settled_off_centre, settled_together,
+    Axes, AxisBearing, BendingWork, FirstSlip, ManyRun, ManySample, ManyStart, OffCentre, Rings,
+    SpragApproach, SpragCourse, SpragGroup, SpragMotion, StaysWith, run_many, settled_off_centre,
+    settled_together,
 };
 pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};

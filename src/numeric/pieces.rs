@@ -40,6 +40,23 @@ impl<const M: usize> Pieces<M> {
         last: &Panels<C>,
     ) -> Self {
         const { assert!(A + B + C == M, "a lane for each function") };
+        Self::made(panels, |i, t| {
+            let (a, b, c) = (panels.in_panel(i, t), more.in_panel(i, t), last.in_panel(i, t));
+            let mut value = [0.0; M];
+            value[..A].copy_from_slice(&a);
+            value[A..A + B].copy_from_slice(&b);
+            value[A + B..].copy_from_slice(&c);
+            value
+        })
+    }
+
+    /// All lanes of `panels`.
+    pub fn of_all(panels: &Panels<M>) -> Self {
+        Self::made(panels, |i, t| panels.in_panel(i, t))
+    }
+
+    /// On the pieces of `panels`, `value` in a panel at its own variable.
+    fn made<const A: usize>(panels: &Panels<A>, value: impl Fn(usize, f64) -> [f64; M]) -> Self {
         let basis = &*BASIS;
         let mut out = Self { panels: Vec::new(), powers: Vec::new() };
         for (i, (from, until, grade)) in panels.spans().enumerate() {
@@ -47,15 +64,8 @@ impl<const M: usize> Pieces<M> {
             out.panels.push(Span { from, until, scale, grade });
             for piece in 0..PIECES {
                 let centre = (2 * piece + 1) as f64 / PIECES as f64 - 1.0;
-                let values: [[f64; M]; POINTS] = std::array::from_fn(|j| {
-                    let t = centre + basis.nodes[j] / PIECES as f64;
-                    let (a, b, c) = (panels.in_panel(i, t), more.in_panel(i, t), last.in_panel(i, t));
-                    let mut value = [0.0; M];
-                    value[..A].copy_from_slice(&a);
-                    value[A..A + B].copy_from_slice(&b);
-                    value[A + B..].copy_from_slice(&c);
-                    value
-                });
+                let at = |j: usize| value(i, centre + basis.nodes[j] / PIECES as f64);
+                let values: [[f64; M]; POINTS] = std::array::from_fn(at);
                 out.powers.push(basis.powers(&values));
             }
         }

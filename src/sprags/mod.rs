@@ -98,7 +98,7 @@ pub struct EachSprag {
     pub off_centre: [f64; 2],
     /// That torque, N m.
     pub largest_nm: f64,
-    /// Races that bend; `None`: nothing in the scene feels that, or there are too many sprags.
+    /// Races that bend; `None`: nothing in the scene feels that, there are too many sprags, or the law of contact is too stiff.
     pub bends: Option<BendingRaces>,
 }
 
@@ -148,7 +148,8 @@ impl Many {
         Self::made(scenario, sharing, apart, false)
     }
 
-    /// The same between races that bend, where sprags unlike one another make them, and no more than [`run_many`] takes.
+    /// The same between races that bend, where sprags unlike one another make them, no more than [`run_many`] takes, under a law of contact
+    /// with which they [have one place](Rings::has_one_solution).
     ///
     /// # Errors
     /// [`NoEachSprag`].
@@ -224,7 +225,8 @@ impl Many {
             stand_off_centre(&mut groups, &unlike, &kinds, reach_m)?;
         }
         let rings = match bends {
-            true => Some(rings(&groups, &unlike, &kinds, largest_nm(scenario, &alike.model.loads))?),
+            true => Some(rings(&groups, &unlike, &kinds, largest_nm(scenario, &alike.model.loads))?)
+                .filter(Rings::has_one_solution),
             false => None,
         };
         // Where nothing but friction sets them apart they begin as sprags alike.

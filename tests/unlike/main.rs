@@ -4,6 +4,8 @@
 mod scenes;
 
 mod bending;
+mod by_chance;
+mod cost;
 mod each_sprag;
 mod off_centre;
 mod sharing;

@@ -2,10 +2,10 @@
 
 use crate::scenes::{lasting, of_scripts, scene};
 use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, ScenarioKind, Sharing, Standing};
-use sprag_design::dynamics::Stop;
+use sprag_design::dynamics::{SpragCourse, Stop};
 use sprag_design::scenario::Settings;
 use sprag_design::sharing::{Asked, Unlike};
-use sprag_design::sprags::Many;
+use sprag_design::sprags::{Many, each_sprag};
 use sprag_design::wedge::AxisTurns;
 use sprag_design::{Design, WedgeCurve};
 
@@ -173,6 +173,38 @@ fn sprags_off_centre_that_slip_and_lift_balance_their_energy() {
             assert!(left.abs() < 1e-7, "{name}: {left:e}");
             assert!(theta < 1e-6, "{name}: {theta:e}");
         }
+    }
+}
+
+/// A torque beyond what the clutch carries: the way over is followed only where the axes meet, so the scene ends with its numbers, by name,
+/// where the first curve does.
+#[test]
+fn a_sprag_that_rolls_over_off_centre_ends_the_scene_by_name() {
+    let mut scene = scene("huang2017-bench", "step-up");
+    scene.clutch.friction.static_ = 0.4;
+    let ScenarioKind::Transient { torque_step_nm, .. } = &mut scene.kind else { panic!() };
+    *torque_step_nm = 500.0;
+    lasting(&mut scene, 0.1);
+    for (stiffness, turning) in [(None, false), (None, true), (Some(1e8), false)] {
+        scene.clutch.races.eccentricity = off(5e-6, turning, Carrier::OuterRace);
+        let sharing =
+            Sharing { stiffness_n_per_m: stiffness, size_within_m: 1e-6, seed: 1, ..Sharing::default() };
+        let found = each_sprag(&scene, &sharing, &Settings::default()).unwrap();
+        let run = &found.run;
+        let most = |of: fn(&SpragCourse) -> f64| run.courses.iter().map(of).fold(0.0, f64::max);
+        let (normal_n, tan) = (most(|c| c.normal_max_n), most(|c| c.tan[0].max(c.tan[1])));
+        println!(
+            "{:?} at {:?}, {} s, {normal_n} N, {tan}, left {:e}",
+            run.stop, run.at_group, run.t_s, run.residual_j
+        );
+        assert_eq!((run.stop, run.at_group.is_some(), found.error.is_some()), (Stop::CurveEnd, true, true));
+        let at = WedgeCurve::build(&scene.clutch, &scene.clutch.profile().unwrap(), 0.0).unwrap();
+        let end_n = at.arc_end_n(at.arc_count() - 1);
+        assert!(
+            run.t_s > 0.0 && run.t_s < 0.1 && (normal_n / end_n - 1.0).abs() < 0.05,
+            "{normal_n} {end_n}"
+        );
+        assert!(run.residual_j.abs() < 1e-7 * run.through_j, "{:e}", run.residual_j / run.through_j);
     }
 }
 

@@ -112,7 +112,8 @@ impl SharingSceneAnswer<'_> {
             };
             return LeftOut::new(
                 "races that bend",
-                "sprags that are alike and in their even places leave the races round; more unlike ones than are integrated do not",
+                "sprags that are alike and in their even places leave the races round; more unlike ones than are integrated do not, \
+                 nor do two under a law of contact that is stiffer than the rings (contact.law = \"elastic\" has them)",
                 &cost,
             );
         };

@@ -202,6 +202,11 @@ impl SpragGroup {
         if let Some(more_n) = more_n {
             let below_rad = (self.model.curve.first_contact_rad() - own[0]).max(0.0);
             point = pressed(point, more_n, below_rad);
+            if below_rad > 0.0 {
+                // Below its first contact a curve's geometry is level. Where it will be open when it is let go keeps the energy.
+                let open = self.model.curve.open(own[0]);
+                (point.oc_g, point.oc_g_slope) = (open.oc_g, open.oc_g_slope);
+            }
         }
         let (Some(axes), Some(at)) = (axes, &self.off_centre) else { return Sight { point, axes: None } };
         let arc = match place {

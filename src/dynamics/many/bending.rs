@@ -19,192 +19,39 @@
 //! that: what u changes in OA and OB, some 1e-4 of them, and how the part T/N of a track's force changes with the
 //! load or in slip.
 
+use super::approach::{KnownRoot, NO_ROOT, SpragApproach, ratio};
 use super::{EACH, HEAD, SpragGroup, SpragMotion};
 use crate::dynamics::model::{Model, Place};
-use crate::numeric::panels::Panels;
-use crate::numeric::{quadrature, root};
-use crate::wedge::{WedgeCurve, WedgePoint};
+use crate::wedge::WedgePoint;
+use nalgebra::DMatrix;
 use std::sync::Arc;
 
-/// From here on, rad from first contact, a curve's geometry is its own: nearer it is read level. Below, D is straight and N a power of it.
-const NEAR_RAD: f64 = 5e-8;
-/// Panels of the first arc, as parts of the way from there to its end in the root of alpha or of D.
-const PARTS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 /// Steps of the Newton method.
 const MOST: usize = 60;
 /// What counts as solved, as a part of the approach at the curve's end.
 const SOLVED: f64 = 1e-14;
 /// The same where rounding lets it come no nearer: at a junction N of one arc goes over into that of the next.
 const NEARLY: f64 = 1e-11;
+/// What may be missed where Newton's method goes on by itself, as a part of the approach at the curve's end, and the least part of a step
+/// that is tried on the way there.
+const NEAR: f64 = 1e-3;
+const LEAST_PART: f64 = 1e-6;
+/// Columns that are added at a time.
+const COLUMNS: usize = 4;
 /// A step that is not this much shorter than the one before asks for new slopes.
 const SLOW: f64 = 0.1;
 
-/// D over alpha of one curve, and N over D.
-#[derive(Debug, Clone)]
-pub struct SpragApproach {
-    alpha0: f64,
-    exponent: f64,
-    /// D' at first contact, m/rad, and at the end of the last place.
-    slopes: [f64; 2],
-    /// D/x over s = x^(1/q) on the first arc, x = alpha - alpha_0; D over alpha on the others.
-    by_alpha: Vec<Panels<1>>,
-    /// Where arcs end, m.
-    ends: Vec<f64>,
-    /// z from which on N^0.1/z and its slope are tabled over z = D^(1/q), and that ratio there.
-    begins: [f64; 2],
-    /// That table of the first arc; N (N) and its slope (N/m) over D on the others.
-    by_approach: Vec<Panels<2>>,
-}
-
-/// D' at `p`, m/rad.
-fn rise(p: &WedgePoint) -> f64 {
-    ratio(p) * p.oa * (p.rho_i + p.rho_e)
-}
-
-/// T_bi/N_bi that statics demands of a sprag without mass.
-pub(super) fn ratio(p: &WedgePoint) -> f64 {
-    let (sin, cos) = (p.beta_gamma - p.gamma).sin_cos();
-    p.ob * sin / (p.ob * cos - p.oa)
-}
-
-impl SpragApproach {
-    /// Of `curve`; `None` where it is too short to tell.
-    pub fn new(curve: &WedgeCurve) -> Option<Self> {
-        let (alpha0, q) = (curve.first_contact_rad(), curve.exponent());
-        let at = |k: usize, alpha: f64| rise(&curve.in_arc(k, alpha));
-        let first_end = curve.arc_end_rad(0) - alpha0;
-        if first_end <= 2.0 * NEAR_RAD {
-            return None;
+/// `sum` becomes the matrix of these `columns` times `x`, [`COLUMNS`] at a time; all are as long as a whole number of these.
+fn multiply(columns: &[f64], x: &[f64], sum: &mut [f64]) {
+    let n = sum.len();
+    sum.fill(0.0);
+    for (four, [u, v, w, x]) in columns.chunks_exact(COLUMNS * n).zip(x.as_chunks::<COLUMNS>().0) {
+        let (a, four) = four.split_at(n);
+        let (b, four) = four.split_at(n);
+        let (c, d) = four.split_at(n);
+        for ((((sum, a), b), c), d) in sum.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+            *sum += (a * u + b * v) + (c * w + d * x);
         }
-        let near = at(0, alpha0 + NEAR_RAD);
-        let roots = [NEAR_RAD, first_end].map(|x| x.powf(1.0 / q));
-        let between = |[from, until]: [f64; 2]| PARTS.map(|part| from + part * (until - from));
-        // By s, x = s^q, in pieces.
-        let way = |from: f64, until: f64| {
-            let rate = |s: f64| at(0, alpha0 + s.powf(q)) * q * s.powf(q - 1.0);
-            let piece = 0.25 * (until - from);
-            (0..4)
-                .map(|i| from + piece * f64::from(i))
-                .map(|s| quadrature::integral(s, s + piece, rate))
-                .sum::<f64>()
-        };
-        let first: Result<Panels<1>, ()> =
-            Panels::build(&between(roots), |s| Ok([(near * NEAR_RAD + way(roots[0], s)) / s.powf(q)]));
-        let mut found = Self {
-            alpha0,
-            exponent: q,
-            slopes: [near; 2],
-            by_alpha: vec![first.ok()?],
-            ends: Vec::new(),
-            begins: [0.0; 2],
-            by_approach: Vec::new(),
-        };
-        found.ends.push(found.at(0, curve.arc_end_rad(0)));
-        // Beyond the end D goes on with the geometry, and falls again; N over D stays what it is on the arcs.
-        for k in 1..curve.place_count() {
-            let (from, until) = (curve.arc_end_rad(k - 1), curve.arc_end_rad(k));
-            let before = found.ends[k - 1];
-            let middle = 0.5 * (from + until);
-            let half = |a: f64, b: f64| quadrature::integral(a, b, |alpha| at(k, alpha));
-            let to = |alpha: f64| {
-                if alpha <= middle { half(from, alpha) } else { half(from, middle) + half(middle, alpha) }
-            };
-            let panels: Result<Panels<1>, ()> =
-                Panels::build(&[from, middle, until], |alpha| Ok([before + to(alpha)]));
-            found.by_alpha.push(panels.ok()?);
-            found.ends.push(found.at(k, until));
-        }
-        for k in 0..curve.arc_count() {
-            let from = if k == 0 { alpha0 + NEAR_RAD } else { curve.arc_end_rad(k - 1) };
-            let until = curve.arc_end_rad(k);
-            let alpha_of = |d: f64| {
-                let miss = |alpha: f64| found.at(k, alpha) - d;
-                let (low, high) = (miss(from), miss(until));
-                match (low >= 0.0, high <= 0.0) {
-                    (true, _) => Some(from),
-                    (_, true) => Some(until),
-                    _ => root::bracketed(from, until, low, high, 1e-17, miss),
-                }
-            };
-            let normal = |d: f64| Some(curve.in_arc(k, alpha_of(d)?).n_bi);
-            let breaks = if k == 0 {
-                between([found.at(0, from), found.ends[0]].map(|d| d.powf(1.0 / q))).to_vec()
-            } else {
-                let (a, b) = (found.ends[k - 1], found.ends[k]);
-                vec![a, 0.5 * (a + b), b]
-            };
-            let value = |x: f64| if k == 0 { Some(normal(x.powf(q))?.powf(0.1) / x) } else { normal(x) };
-            let values: Panels<1> = Panels::build(&breaks, |x| value(x).map(|v| [v]).ok_or(())).ok()?;
-            let slopes = values.derivative([0]);
-            let both: Result<Panels<2>, ()> =
-                Panels::build(&breaks, |x| Ok([values.at(x)[0], slopes.at(x)[0]]));
-            if k == 0 {
-                found.begins = [breaks[0], values.at(breaks[0])[0]];
-            }
-            found.by_approach.push(both.ok()?);
-        }
-        let last = curve.arc_count() - 1;
-        found.ends.truncate(last + 1);
-        found.slopes[1] = at(last, curve.arc_end_rad(last));
-        Some(found)
-    }
-
-    /// D at `alpha` (rad) with the functions of arc `k`, m; straight on below first contact.
-    pub fn at(&self, k: usize, alpha: f64) -> f64 {
-        if k > 0 {
-            return self.by_alpha[k].at(alpha)[0];
-        }
-        let x = alpha - self.alpha0;
-        if x <= NEAR_RAD {
-            self.slopes[0] * x
-        } else {
-            x * self.by_alpha[0].at(x.powf(1.0 / self.exponent))[0]
-        }
-    }
-
-    /// N_bi at the approach `d` (m), N, and its slope, N/m.
-    pub fn normal(&self, d: f64) -> (f64, f64) {
-        if d <= 0.0 {
-            return (0.0, 0.0);
-        }
-        let last = self.ends.len() - 1;
-        let k = self.ends[..last].partition_point(|&end| end < d);
-        let within = d.min(self.ends[last]);
-        let (n, slope) = if k > 0 {
-            let [n, slope] = self.by_approach[k].at(within);
-            (n, slope)
-        } else {
-            let z = within.powf(1.0 / self.exponent);
-            let [r, bend] =
-                if z <= self.begins[0] { [self.begins[1], 0.0] } else { self.by_approach[0].at(z) };
-            let n = (z * r).powi(10);
-            (n, 10.0 * n * (1.0 + z * bend / r) / (self.exponent * within))
-        };
-        (n + slope * (d - within), slope)
-    }
-
-    /// alpha, rad, at which the approach is `d`, m, near first contact.
-    fn alpha_at(&self, d: f64) -> f64 {
-        let mut x = d / self.slopes[0];
-        for _ in 0..20 {
-            let step = (d - self.at(0, self.alpha0 + x)) / self.slopes[0];
-            x += step;
-            if step.abs() < 1e-17 {
-                break;
-            }
-        }
-        self.alpha0 + x
-    }
-
-    /// int N dD from `from` to `until`, J.
-    fn stored_j(&self, from: f64, until: f64) -> f64 {
-        const PIECES: u32 = 12;
-        let q = self.exponent;
-        let [a, b] = [from, until].map(|d| d.max(0.0).powf(1.0 / q));
-        let piece = (b - a) / f64::from(PIECES);
-        let at = |i: u32| a + piece * f64::from(i);
-        let rate = |z: f64| self.normal(z.powf(q)).0 * q * z.powf(q - 1.0);
-        (0..PIECES).map(|i| quadrature::integral(at(i), at(i + 1), rate)).sum()
     }
 }
 
@@ -219,10 +66,38 @@ pub struct Rings {
     pub lowest_mode_hz: [f64; 2],
 }
 
+impl Rings {
+    /// Whether there is one force of each sprag wherever all of them stand: I + M diag(N') has the eigenvalues of I + N'^1/2 M N'^1/2, above 0
+    /// where the least one of M times the steepest N' is above -1. It is not where a law of contact is stiffer than what even sprags bend
+    /// the rings, which it should contain: two sprags under law `roller`.
+    pub fn has_one_solution(&self) -> bool {
+        let n = self.approaches.len();
+        let least = DMatrix::from_row_slice(n, n, &self.opens_m_per_n).symmetric_eigenvalues().min();
+        let steepest = self.approaches.iter().map(|of| of.steepest()).fold(0.0, f64::max);
+        least * steepest > -1.0
+    }
+}
+
+/// Work of finding it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct BendingWork {
+    /// Places of all sprags at which it was sought.
+    pub solutions: u64,
+    /// Forces of all and what the tracks recede by them.
+    pub passes: u64,
+    /// Steps by the inverse of the slopes.
+    pub products: u64,
+    /// Inverses of them.
+    pub inversions: u64,
+}
+
 /// What the races' bending is where the sprags stand now; solved anew where they stand otherwise.
 #[derive(Debug, Clone)]
 pub(super) struct Bent<'a> {
     rings: &'a Rings,
+    /// M by rows, filled up with zeros to a whole number of [`COLUMNS`], as are all matrices and what they are multiplied with.
+    opens: Vec<f64>,
+    side: usize,
     /// Where it was solved.
     alphas: Vec<f64>,
     /// Whether each carries where pressed, and its arc.
@@ -232,6 +107,8 @@ pub(super) struct Bent<'a> {
     /// D(alpha), m; N(D), N.
     approach: Vec<f64>,
     own_n: Vec<f64>,
+    /// Of alpha - alpha_0 and of h, near by.
+    roots: [Vec<KnownRoot>; 2],
     /// h, m; N(h), N; its slope, N/m; u, m.
     h: Vec<f64>,
     normal: Vec<f64>,
@@ -239,32 +116,42 @@ pub(super) struct Bent<'a> {
     recede: Vec<f64>,
     step: Vec<f64>,
     between: Vec<f64>,
-    /// I + M diag(N'), factored.
-    factors: Vec<f64>,
+    /// (I + M diag(N'))^-1 by columns.
+    inverse: Vec<f64>,
     order: Vec<usize>,
-    factored: bool,
+    inverted: bool,
+    pub(super) work: BendingWork,
 }
 
 impl<'a> Bent<'a> {
     pub(super) fn new(rings: &'a Rings) -> Self {
         let n = rings.approaches.len();
-        let zeros = || vec![0.0; n];
+        let side = n.next_multiple_of(COLUMNS);
+        let mut opens = vec![0.0; side * side];
+        for (to, from) in opens.chunks_mut(side.max(1)).zip(rings.opens_m_per_n.chunks(n.max(1))) {
+            to[..n].copy_from_slice(from);
+        }
+        let zeros = || vec![0.0; side];
         Self {
             rings,
+            opens,
+            side,
             alphas: vec![f64::NAN; n],
             seats: vec![None; n],
             near: false,
-            approach: zeros(),
-            own_n: zeros(),
-            h: zeros(),
+            approach: vec![0.0; n],
+            own_n: vec![0.0; n],
+            roots: [vec![NO_ROOT; n], vec![NO_ROOT; n]],
+            h: vec![0.0; n],
             normal: zeros(),
             slopes: zeros(),
             recede: zeros(),
             step: zeros(),
             between: zeros(),
-            factors: vec![0.0; n * n],
-            order: (0..n).collect(),
-            factored: false,
+            inverse: vec![0.0; side * side],
+            order: (0..side).collect(),
+            inverted: false,
+            work: BendingWork::default(),
         }
     }
 
@@ -292,31 +179,30 @@ impl<'a> Bent<'a> {
         let k = seat.unwrap_or_else(|| model.curve.arc_at(alpha).min(of.by_alpha.len() - 1));
         self.near &= self.seats[g] == seat;
         (self.alphas[g], self.seats[g]) = (alpha, seat);
-        self.approach[g] = of.at(k, alpha);
-        self.own_n[g] = of.normal(self.approach[g]).0;
+        let (d, root) = of.rooted(k, alpha, &mut self.roots[0][g]);
+        self.approach[g] = d;
+        // Beyond the end of its curve the root is asked for at that end.
+        let known = |of: f64| root.filter(|_| of == d);
+        self.own_n[g] =
+            of.normal_by(d, |within| known(within).unwrap_or_else(|| within.powf(1.0 / of.exponent))).0;
         true
     }
 
     /// Newton's method for h; without a solution forces are no numbers.
     pub(super) fn solve(&mut self) {
         let n = self.h.len();
+        self.work.solutions += 1;
         if self.near {
             // From what was solved last along the tangents there.
-            for i in 0..n {
-                self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
-            }
-            self.substitute();
+            self.miss();
+            self.lead_on();
             self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
         } else {
             for i in 0..n {
                 self.h[i] = self.approach[i] - self.recede[i];
             }
         }
-        let solved = self.newton() || {
-            self.factored = false;
-            self.h.copy_from_slice(&self.approach);
-            self.newton()
-        };
+        let solved = self.newton() || self.come_near() && self.newton();
         self.near = solved;
         if solved {
             // Along the tangents of the last step, which leaves its square.
@@ -325,27 +211,33 @@ impl<'a> Bent<'a> {
                 self.recede[i] = self.approach[i] - self.h[i];
             }
         } else {
-            self.factored = false;
+            self.inverted = false;
             self.alphas.fill(f64::NAN);
-            self.normal.fill(f64::NAN);
+            self.normal[..n].fill(f64::NAN);
             self.recede.fill(0.0);
+        }
+    }
+
+    /// `step` becomes what h misses.
+    fn miss(&mut self) {
+        let n = self.h.len();
+        self.step[n..].fill(0.0);
+        for i in 0..n {
+            self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
         }
     }
 
     /// Its steps, from h on; whether they come to an end.
     fn newton(&mut self) -> bool {
-        let n = self.h.len();
-        let scale = self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max);
+        let scale = self.scale();
         let mut last = f64::INFINITY;
         for _ in 0..MOST {
             self.forces();
-            for i in 0..n {
-                self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
-            }
-            if !self.factored && !self.factor() {
+            self.miss();
+            if !self.inverted && !self.invert() {
                 return false;
             }
-            self.substitute();
+            self.lead_on();
             let size = self.step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
             // A largest one knows no NaN, and once kept it would stay: a trial step may stand anywhere.
             if !self.step.iter().all(|step| step.is_finite()) {
@@ -361,80 +253,118 @@ impl<'a> Bent<'a> {
                 // It has gone too far: half of it back.
                 self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h += 0.5 * step);
             }
-            self.factored = size <= SLOW * last;
+            self.inverted = size <= SLOW * last;
             last = size;
         }
         false
     }
 
+    /// From afar: h along the tangents where it stands, each step halved until less is missed, up to where Newton's method does the rest.
+    /// Whether it comes there: with one solution ([`Rings::has_one_solution`]) it does.
+    fn come_near(&mut self) -> bool {
+        self.h.copy_from_slice(&self.approach);
+        self.forces();
+        self.miss();
+        let missed = |step: &[f64]| step.iter().map(|miss| miss * miss).sum::<f64>();
+        let (mut left, near) = (missed(&self.step), NEAR * self.scale());
+        for _ in 0..MOST {
+            if left <= near * near {
+                self.inverted = false;
+                return true;
+            }
+            if !self.invert() {
+                return false;
+            }
+            self.lead_on();
+            let (from, step, mut part) = (self.h.clone(), self.step.clone(), 1.0);
+            loop {
+                self.h
+                    .iter_mut()
+                    .zip(from.iter().zip(&step))
+                    .for_each(|(h, (from, step))| *h = from - part * step);
+                self.forces();
+                self.miss();
+                let there = missed(&self.step);
+                if there < left {
+                    left = there;
+                    break;
+                }
+                part *= 0.5;
+                if part < LEAST_PART {
+                    return false;
+                }
+            }
+        }
+        false
+    }
+
+    /// Approach at the end of the longest curve, m.
+    fn scale(&self) -> f64 {
+        self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max)
+    }
+
     /// N, its slope and u at h.
     fn forces(&mut self) {
-        let n = self.h.len();
+        self.work.passes += 1;
         for (j, seat) in self.seats.iter().enumerate() {
+            let (of, last) = (&self.rings.approaches[j], &mut self.roots[1][j]);
             (self.normal[j], self.slopes[j]) = match seat {
-                Some(_) => self.rings.approaches[j].normal(self.h[j]),
+                Some(_) => of.normal_by(self.h[j], |d| of.root(d, last)),
                 None => (0.0, 0.0),
             };
         }
-        // By columns, which are the rows.
-        self.recede.fill(0.0);
-        for (normal, row) in self.normal.iter().zip(self.rings.opens_m_per_n.chunks(n)) {
-            self.recede.iter_mut().zip(row).for_each(|(recede, m)| *recede += m * normal);
-        }
+        // Its columns are its rows.
+        multiply(&self.opens, &self.normal, &mut self.recede);
     }
 
-    /// I + M diag(N') into its triangles, rows exchanged; false: singular.
-    fn factor(&mut self) -> bool {
-        let n = self.h.len();
+    /// (I + M diag(N'))^-1 by columns, those of its transpose I + diag(N') M by rows: Gauss and Jordan's elimination, rows exchanged;
+    /// false: singular.
+    fn invert(&mut self) -> bool {
+        self.work.inversions += 1;
+        let (n, a) = (self.side, &mut self.inverse);
         for i in 0..n {
-            self.order[i] = i;
             for j in 0..n {
-                let one = f64::from(u8::from(i == j));
-                self.factors[i * n + j] = one + self.rings.opens_m_per_n[i * n + j] * self.slopes[j];
+                a[i * n + j] = f64::from(u8::from(i == j)) + self.slopes[i] * self.opens[i * n + j];
             }
         }
         for k in 0..n {
             let mut best = k;
             for i in k + 1..n {
-                if self.factors[i * n + k].abs() > self.factors[best * n + k].abs() {
+                if a[i * n + k].abs() > a[best * n + k].abs() {
                     best = i;
                 }
             }
-            let pivot = self.factors[best * n + k];
+            let pivot = a[best * n + k];
             if pivot == 0.0 || !pivot.is_finite() {
                 return false;
             }
+            self.order[k] = best;
             if best != k {
-                self.order.swap(k, best);
                 for j in 0..n {
-                    self.factors.swap(k * n + j, best * n + j);
+                    a.swap(k * n + j, best * n + j);
                 }
             }
-            let (above, below) = self.factors.split_at_mut((k + 1) * n);
-            for row in below.chunks_mut(n) {
-                let part = row[k] / pivot;
-                row[k] = part;
-                let from = &above[k * n + k + 1..];
-                row[k + 1..].iter_mut().zip(from).for_each(|(f, of)| *f -= part * of);
+            a[k * n + k] = 1.0;
+            let row = &mut a[k * n..(k + 1) * n];
+            row.iter_mut().for_each(|f| *f /= pivot);
+            self.between.copy_from_slice(row);
+            for (_, row) in a.chunks_exact_mut(n).enumerate().filter(|(i, _)| *i != k) {
+                let part = std::mem::replace(&mut row[k], 0.0);
+                row.iter_mut().zip(&self.between).for_each(|(f, of)| *f -= part * of);
             }
         }
-        self.factored = true;
+        for k in (0..n).rev().filter(|&k| self.order[k] != k) {
+            a.chunks_exact_mut(n).for_each(|row| row.swap(k, self.order[k]));
+        }
+        self.inverted = true;
         true
     }
 
-    /// `step` becomes what the factored system has for it.
-    fn substitute(&mut self) {
-        let n = self.h.len();
-        for i in 0..n {
-            let row = &self.factors[i * n..i * n + i];
-            let known: f64 = row.iter().zip(&self.between).map(|(f, x)| f * x).sum();
-            self.between[i] = self.step[self.order[i]] - known;
-        }
-        for i in (0..n).rev() {
-            let row = &self.factors[i * n + i + 1..(i + 1) * n];
-            let known: f64 = row.iter().zip(&self.step[i + 1..]).map(|(f, x)| f * x).sum();
-            self.step[i] = (self.between[i] - known) / self.factors[i * n + i];
-        }
+    /// `step` from what h misses to what takes it away along the tangents there were.
+    fn lead_on(&mut self) {
+        self.work.products += 1;
+        multiply(&self.inverse, &self.step, &mut self.between);
+        std::mem::swap(&mut self.step, &mut self.between);
     }
 
     /// N_i - N_own of group `g`, N.
@@ -479,22 +409,32 @@ mod tests {
     use crate::clutch::Sharing;
     use crate::design::Design;
     use crate::sprags::Many;
+    use nalgebra::DMatrix;
+
+    fn unlike() -> Many {
+        let design =
+            Design::parse(include_str!("../../../designs/huang2017-multi-arc.toml"), "m.toml").unwrap();
+        let sharing = Sharing { seed: 1, size_within_m: 3e-6, ..Sharing::default() };
+        Many::bending(design.scenario("low-6").unwrap(), &sharing).unwrap()
+    }
+
+    /// Each so far beyond its first contact, rad; what presses them, N.
+    fn stand(many: &Many, bent: &mut Bent<'_>, beyond: &[f64]) -> Vec<f64> {
+        for (g, (group, beyond)) in many.groups.iter().zip(beyond).enumerate() {
+            let curve = &group.model.curve;
+            let alpha = curve.first_contact_rad() + beyond;
+            bent.place(g, alpha, Some(curve.arc_at(alpha).min(curve.arc_count() - 1)), &group.model);
+        }
+        bent.solve();
+        bent.normal[..beyond.len()].to_vec()
+    }
 
     /// Trial steps stand where there is nothing: what is sought after one is what it would have been without.
     #[test]
     fn a_place_without_a_solution_leaves_nothing_behind() {
-        let design =
-            Design::parse(include_str!("../../../designs/huang2017-multi-arc.toml"), "m.toml").unwrap();
-        let sharing = Sharing { seed: 1, size_within_m: 3e-6, ..Sharing::default() };
-        let many = Many::bending(design.scenario("low-6").unwrap(), &sharing).unwrap();
+        let many = unlike();
         let rings = many.rings.as_ref().unwrap();
-        let stand = |bent: &mut Bent<'_>, alpha: f64| {
-            for (g, group) in many.groups.iter().enumerate() {
-                bent.place(g, group.model.curve.first_contact_rad() + alpha, Some(0), &group.model);
-            }
-            bent.solve();
-            bent.normal.clone()
-        };
+        let stand = |bent: &mut Bent<'_>, alpha: f64| stand(&many, bent, &[alpha; 12]);
         let (mut once, mut again) = (Bent::new(rings), Bent::new(rings));
         let expected = stand(&mut once, 0.02);
         for nowhere in [f64::NAN, f64::INFINITY, 1e200, -1e200] {
@@ -509,5 +449,46 @@ mod tests {
         for (found, expected) in stand(&mut again, 0.02).iter().zip(&expected) {
             assert!((found / expected - 1.0).abs() < 1e-12 && *expected > 100.0, "{found} {expected}");
         }
+    }
+
+    /// Races that would bend so that M N' comes to -0.98 where N is steepest: the inverse is one to rounding, and a place is found from anywhere,
+    /// some of the sprags off.
+    #[test]
+    fn bends_at_the_brink_of_what_has_one_solution_are_solved() {
+        let many = unlike();
+        let mut rings = many.rings.clone().unwrap();
+        assert!(rings.has_one_solution());
+        let n = rings.approaches.len();
+        let most = DMatrix::from_row_slice(n, n, &rings.opens_m_per_n).symmetric_eigenvalues().max();
+        let steepest = rings.approaches.iter().map(|of| of.steepest()).fold(0.0, f64::max);
+        rings.opens_m_per_n.iter_mut().for_each(|m| *m *= -0.98 / (most * steepest));
+        assert!(rings.has_one_solution());
+        let curve = &many.groups[0].model.curve;
+        let whole = curve.arc_end_rad(curve.arc_count() - 1) - curve.first_contact_rad();
+        let mut random = fastrand::Rng::with_seed(1);
+        let mut off = 0;
+        for _ in 0..200 {
+            let mut bent = Bent::new(&rings);
+            let size = random.f64();
+            let beyond: Vec<f64> = (0..n).map(|_| size * whole * random.f64()).collect();
+            let normal = stand(&many, &mut bent, &beyond);
+            off += normal.iter().filter(|n| **n == 0.0).count();
+            for i in 0..n {
+                let recedes: f64 = (0..n).map(|j| rings.opens_m_per_n[i * n + j] * normal[j]).sum();
+                let expected = rings.approaches[i].normal(bent.approach[i] - recedes).0;
+                assert!((normal[i] - expected).abs() < 1e-9 * (expected + 1.0), "{} {expected}", normal[i]);
+            }
+            bent.slopes[..n].fill(steepest);
+            assert!(bent.invert());
+            let x: Vec<f64> = (0..bent.side).map(|_| random.f64()).collect();
+            let (mut of, mut back) = (vec![0.0; bent.side], vec![0.0; bent.side]);
+            super::multiply(&bent.opens, &x, &mut of);
+            of.iter_mut().zip(&x).for_each(|(of, x)| *of = x + steepest * *of);
+            super::multiply(&bent.inverse, &of, &mut back);
+            assert!(back.iter().zip(&x).all(|(back, x)| (back - x).abs() < 1e-13 / 0.02), "{back:?} {x:?}");
+        }
+        assert!(off > 0);
+        rings.opens_m_per_n.iter_mut().for_each(|m| *m *= 1.03);
+        assert!(!rings.has_one_solution());
     }
 }

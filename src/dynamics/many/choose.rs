@@ -81,6 +81,7 @@ impl Rhs<'_> {
     /// Each group's own mode while the races go at `x`, rad/s^2.
     fn choose_under(&self, t: f64, y: &[f64], known: &[BothKnown], x: &Vector4<f64>) -> Chosen {
         let mut miss = self.inertia().component_mul(x) - self.outside(&self.torques_nm(t, y), y);
+        self.bend(y);
         let mut consistent = true;
         let mut modes = Vec::with_capacity(self.groups.len());
         for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
@@ -89,7 +90,7 @@ impl Rhs<'_> {
                 continue;
             }
             let model = &group.model;
-            let sight = self.stands(g, motion.mode.place, t, y, &state_of(y, g));
+            let sight = self.stands_there(g, motion.mode.place, t, y, &state_of(y, g));
             let [inner, outer] = known[g];
             let found = choose_by(model, &sight.point, motion.mode.place, inner, outer, |mode| {
                 self.between(g, mode, t, y, x)

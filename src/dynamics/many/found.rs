@@ -1,6 +1,6 @@
 //! What a run of many sprags comes to.
 
-use super::SpragMotion;
+use super::{BendingWork, SpragMotion};
 use crate::dynamics::run::Stop;
 use crate::ode::step::Counters;
 
@@ -94,7 +94,11 @@ pub struct ManyRun {
     pub inconsistent_choices: u64,
     /// Work of the integrator, one evaluation for all sprags.
     pub counters: Counters,
-    /// What works and changes of energy leave over, J.
+    /// Looks at all sprags, those of evaluations counted.
+    pub looks: u64,
+    /// Work of the races' bending.
+    pub bending: BendingWork,
+    /// What works and changes of energy leave over, J; 0 where the run ended because forces ceased to be finite ([`Stop::NotFinite`]).
     pub residual_j: f64,
     /// Energy that went through, J.
     pub through_j: f64,

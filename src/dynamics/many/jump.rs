@@ -1,31 +1,57 @@
 //! What the rates of all do where some sprags cross a junction.
+//!
+//! An impulse J = (J_A, J_B) of the contacts of one changes the rates X of races and axis by M^-1 R^T J, R X being what its contacts see of
+//! them (`axes`; between axes that meet the rates of the races themselves), M the inertia of all but that sprag. What it sees of them then has the
+//! inertia (R M^-1 R^T)^-1 of two races.
 
+use super::axes::Sight;
 use super::run::Going;
 use super::{EACH, HEAD, state_of};
 use crate::dynamics::crossing::cross_between;
 use crate::dynamics::model::{Grip, Mode, Place};
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Matrix2x4, Matrix4, Vector2, Vector4};
+
+/// A group that goes with the races as another crosses a junction.
+struct TurnsAlong {
+    /// What it adds to the races as it sees them, kg m^2.
+    inertia: Matrix2<f64>,
+    /// What alpha' takes from a jump of their rates, as it sees them.
+    takes: [f64; 2],
+    /// How it sees them.
+    sees: Option<Matrix2x4<f64>>,
+}
 
 impl<const N: usize> Going<'_, N> {
-    /// Inertia that an impulse on the races meets, with all groups but `those`, kg m^2: a sprag that rolls on both races turns along,
-    /// one that rolls on one alone keeps the momentum of alpha.
-    fn races_with_all_but(&self, those: &[usize]) -> Matrix2<f64> {
-        let races = &self.groups[0].model;
-        let mut sum = Matrix2::new(races.inner_inertia_kg_m2, 0.0, 0.0, races.outer_inertia_kg_m2);
+    /// Inertia of races (kg m^2) and axis (kg) with all groups but `those`: a sprag that rolls on both races turns along, one that rolls on
+    /// one alone keeps the momentum of alpha.
+    fn inertia_with_all_but(&self, those: &[usize]) -> Matrix4<f64> {
+        let mut sum = Matrix4::from_diagonal(&self.rhs.inertia());
         for other in (0..self.groups.len()).filter(|other| !those.contains(other)) {
             let Some(turns) = self.turns_along(other) else { continue };
-            sum += turns.0;
+            match turns.sees {
+                None => (0..4).for_each(|i| sum[(i / 2, i % 2)] += turns.inertia[(i / 2, i % 2)]),
+                Some(rows) => sum += rows.transpose() * turns.inertia * rows,
+            }
         }
         sum
     }
 
-    /// Inertia that group `g` adds to the races, kg m^2, and what alpha' takes from a jump of their rates.
-    fn turns_along(&self, g: usize) -> Option<(Matrix2<f64>, [f64; 2])> {
+    /// R of a sprag in `sight`; `None`: the axes meet and are held. Held ones do not move.
+    fn sees(&self, sight: &Sight) -> Option<Matrix2x4<f64>> {
+        let mut rows = Matrix2x4::from_rows(&sight.axes.as_ref()?.races.map(|row| row.transpose()));
+        if self.rhs.moved().is_none() {
+            rows.fixed_columns_mut::<2>(2).fill(0.0);
+        }
+        Some(rows)
+    }
+
+    fn turns_along(&self, g: usize) -> Option<TurnsAlong> {
         let (model, motion) = (&self.groups[g].model, &self.rhs.motions[g]);
         if motion.waits {
             return None;
         }
-        let p = self.rhs.stands(g, motion.mode.place, self.t_s, &self.y, &state_of(&self.y, g)).point;
+        let sight = self.rhs.stands(g, motion.mode.place, self.t_s, &self.y, &state_of(&self.y, g));
+        let (p, sees) = (sight.point, self.sees(&sight));
         let (n, i) = (model.count, model.inertia_kg_m2);
         let orbit = model.mass_kg * p.oc_g * p.oc_g;
         let inner = motion.mode.inner == Grip::Stick && motion.mode.place != Place::Open;
@@ -36,7 +62,7 @@ impl<const N: usize> Going<'_, N> {
             let own = i * (1.0 + s).powi(2) + orbit * s * s;
             (n * i * orbit / own, -along / own)
         };
-        Some(match (inner, outer) {
+        let (inertia, takes) = match (inner, outer) {
             (true, true) => {
                 let r = p.rho_i + p.rho_e;
                 // (alpha', phi') by the rates of the races.
@@ -54,21 +80,30 @@ impl<const N: usize> Going<'_, N> {
                 (Matrix2::new(0.0, 0.0, 0.0, mass), [0.0, takes])
             }
             (false, false) => return None,
-        })
+        };
+        Some(TurnsAlong { inertia, takes, sees })
     }
 
-    /// The rates of the races jump by `more` (rad/s) as groups `those` cross a junction: the others follow. Whether they do.
-    fn push(&mut self, more: [f64; 2], those: &[usize]) -> bool {
-        if more == [0.0; 2] {
+    /// The rates of races (rad/s) and axis (m/s) jump by `more` as groups `those` cross a junction: the others follow. Whether they do.
+    fn push(&mut self, more: Vector4<f64>, those: &[usize]) -> bool {
+        if more == Vector4::zeros() {
             return false;
         }
         for other in (0..self.groups.len()).filter(|other| !those.contains(other)) {
-            if let Some((_, takes)) = self.turns_along(other) {
-                self.y[HEAD + EACH * other + 2] += takes[0] * more[0] + takes[1] * more[1];
+            if let Some(turns) = self.turns_along(other) {
+                let [inner, outer] = match turns.sees {
+                    None => [more[0], more[1]],
+                    Some(rows) => (rows * more).into(),
+                };
+                self.y[HEAD + EACH * other + 2] += turns.takes[0] * inner + turns.takes[1] * outer;
             }
         }
         self.y[2] += more[0];
         self.y[3] += more[1];
+        if let Some((_, at)) = self.rhs.moved() {
+            self.y[at + 2] += more[2];
+            self.y[at + 3] += more[3];
+        }
         true
     }
 
@@ -83,10 +118,21 @@ impl<const N: usize> Going<'_, N> {
         let rates = self.rhs.goes(g, &mode, &p, &self.y, &own);
         let touching = mode.place == Place::Open;
         let held = Mode { place, inner: if touching { Grip::Slip(1.0) } else { mode.inner }, ..mode };
-        let races = self.races_with_all_but(those);
+        let all = self.inertia_with_all_but(those);
         let times = those.len() as f64;
+        // Several in one state to the last bit stand all round: they push the axis nowhere.
+        let sees = self.sees(&p).filter(|_| those.len() == 1).zip(all.try_inverse());
+        let seen = sees.and_then(|(rows, yields)| {
+            Some((rows, yields, (rows * yields * rows.transpose()).try_inverse()?))
+        });
+        let races = seen.map_or(all.fixed_view::<2, 2>(0, 0).into_owned(), |(_, _, races)| races);
         let after = cross_between(model, times, &held, &p.point, &q.point, rates, &races);
-        let pushed = self.push([after[2] - rates[2], after[3] - rates[3]], those);
+        let jump = Vector2::new(after[2] - rates[2], after[3] - rates[3]);
+        let more = match seen {
+            None => Vector4::new(jump[0], jump[1], 0.0, 0.0),
+            Some((rows, yields, races)) => yields * rows.transpose() * (races * jump),
+        };
+        let pushed = self.push(more, those);
         for &g in those {
             let at = HEAD + EACH * g;
             (self.y[at + 2], self.y[at + 3]) = (after[0], after[1]);

@@ -27,6 +27,7 @@
 //! State: theta_bi, theta_be, their rates, five works, then of each group alpha, phi, their rates and the slips at A
 //! and B; last the shift of the axis and its rate, where there are bearings.
 
+mod approach;
 mod axes;
 mod bending;
 mod change;
@@ -41,8 +42,9 @@ mod start;
 mod touch;
 mod watch;
 
+pub use approach::SpragApproach;
 pub use axes::{Axes, AxisBearing, OffCentre, StaysWith};
-pub use bending::{Rings, SpragApproach};
+pub use bending::{BendingWork, Rings};
 pub use found::{FirstSlip, ManyRun, ManySample, SpragCourse};
 pub use run::run_many;
 pub use start::{settled_off_centre, settled_together};

@@ -1,7 +1,7 @@
 //! The right-hand side of all sprags: forces of each, accelerations of the races under their sum.
 
 use super::axes::{AXIS, Axes, SeenAxes, Sight};
-use super::bending::{Bent, Rings};
+use super::bending::{BendingWork, Bent, Rings};
 use super::{EACH, FIRST_WORK, HEAD, PROBES, SpragGroup, SpragMotion, state_of};
 use crate::dynamics::choose::EXCESS;
 use crate::dynamics::events::{INNER, LEAVE_RAD, LOWER, OUTER, Probe, UPPER, probe_of, without_forces};
@@ -23,7 +23,6 @@ pub(super) struct Seen {
     pub(super) point: WedgePoint,
     pub(super) rates: [f64; 4],
     pub(super) forces: Forces,
-    pub(super) axes: Option<SeenAxes>,
 }
 
 /// One group while the races' accelerations are sought.
@@ -36,7 +35,6 @@ pub(super) struct GroupRhs {
     still: Vector2<f64>,
     yields: Matrix2<f64>,
     let_go: bool,
-    axes: Option<SeenAxes>,
 }
 
 impl GroupRhs {
@@ -49,18 +47,18 @@ impl GroupRhs {
         sight: &Sight,
         rates: &[f64; 4],
     ) -> Self {
-        let (p, axes) = (&sight.point, sight.axes);
+        let (p, axes) = (&sight.point, &sight.axes);
         let mut of = model.loose::<RADIAL, N_STATE>(mode, t, own, p, rates);
-        if let Some(seen) = &axes {
+        if let Some(seen) = axes {
             of = model.turned_along(of, p, seen.along);
         }
         let (mut a, mut b) = model.grips(mode, p, rates, &of, [0.0; 2], [0.0; 2]);
-        if let Some(seen) = &axes {
+        if let Some(seen) = axes {
             seen.roll(mode, p, rates, [own[6], own[7]], &of, (&mut a, &mut b));
         }
         let holds = [mode.inner == Grip::Stick && mode.place != Place::Open, mode.outer == Grip::Stick];
         let (still, yields) = (Vector2::zeros(), Matrix2::zeros());
-        let mut part = Self { of, a, b, holds, still, yields, let_go: false, axes };
+        let mut part = Self { of, a, b, holds, still, yields, let_go: false };
         part.solve();
         part
     }
@@ -84,9 +82,14 @@ impl GroupRhs {
         self.yields = Matrix2::from_columns(&[solved(inner, 0.0), solved(0.0, outer)]);
     }
 
-    /// Forces where the races go at `x`, rad/s^2; whether B has let go of what it is not held by.
-    fn under(&mut self, x: &Vector4<f64>) -> (Forces, bool) {
-        let t = self.still - self.yields * self.races(x);
+    /// Forces where the races go at `x`, rad/s^2, of a sprag that sees the axes so; whether B has let go of what it is not held by.
+    fn under(&mut self, x: &Vector4<f64>, axes: Option<&SeenAxes>) -> (Forces, bool) {
+        // What x of the races and the axis is to the two contacts, rad/s^2.
+        let races = match axes {
+            None => Vector2::new(x[0], x[1]),
+            Some(seen) => Vector2::new(seen.races[0].dot(x), seen.races[1].dot(x)),
+        };
+        let t = self.still - self.yields * races;
         let n_be = if self.let_go { 0.0 } else { self.of.outer_n(t[0], t[1]) };
         let lets_go = n_be < 0.0 && !self.holds[1];
         if lets_go {
@@ -97,16 +100,6 @@ impl GroupRhs {
     }
 }
 
-impl GroupRhs {
-    /// What `x` of the races and the axis is to the two contacts, rad/s^2.
-    fn races(&self, x: &Vector4<f64>) -> Vector2<f64> {
-        match &self.axes {
-            None => Vector2::new(x[0], x[1]),
-            Some(seen) => Vector2::new(seen.races[0].dot(x), seen.races[1].dot(x)),
-        }
-    }
-}
-
 /// The right-hand side while every group is in one mode, with what it sees on its way.
 pub(super) struct Rhs<'a> {
     pub(super) groups: &'a [SpragGroup],
@@ -114,10 +107,14 @@ pub(super) struct Rhs<'a> {
     /// Races that bend, as the sprags stood when they were asked last.
     bent: Option<RefCell<Bent<'a>>>,
     pub(super) motions: Vec<SpragMotion>,
+    /// At all sprags, so far.
+    pub(super) looks: u64,
     /// theta_be - theta_bi from which the windup counts that a waiting group waits for, rad.
     pub(super) reference_rad: f64,
     parts: Vec<Option<GroupRhs>>,
     pub(super) seen: Vec<Option<Seen>>,
+    /// How each of those sees the axes; empty where these meet and are held.
+    sees: Vec<Option<SeenAxes>>,
     pub(super) probes: [Vec<Probe>; PROBES],
     /// What the bearings hold at each probe, N.
     pub(super) bearing_probes_n: [f64; PROBES],
@@ -142,9 +139,11 @@ impl<'a> Rhs<'a> {
             axes,
             bent: rings.map(|rings| RefCell::new(Bent::new(rings))),
             motions,
+            looks: 0,
             reference_rad,
             parts: (0..n).map(|_| None).collect(),
             seen: vec![None; n],
+            sees: vec![None; axes.map_or(0, |_| n)],
             probes: std::array::from_fn(|_| vec![Probe::NOTHING; n]),
             bearing_probes_n: [0.0; PROBES],
         }
@@ -152,15 +151,25 @@ impl<'a> Rhs<'a> {
 
     /// Where group `g` stands in its place, `own` its state in y.
     pub(super) fn stands(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
-        self.bent(y, |_| ());
+        self.bend(y);
         self.stands_there(g, place, t, y, own)
     }
 
     /// The same where the races are bent as `y` has them already.
-    fn stands_there(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
+    pub(super) fn stands_there(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
         let bent = self.bent.as_ref().filter(|_| matches!(place, Place::Arc(_)));
         let more_n = bent.and_then(|bent| Some(bent.try_borrow().ok()?.more_n(g)));
         self.groups[g].sight(self.axes, self.groups.len(), place, t, y, own, more_n)
+    }
+
+    /// Bend the races as `y` has the sprags.
+    pub(super) fn bend(&self, y: &[f64]) {
+        self.bent(y, |_| ());
+    }
+
+    /// Work of that so far.
+    pub(super) fn bending_work(&self) -> BendingWork {
+        self.bent.as_ref().map_or(BendingWork::default(), |bent| bent.borrow().work)
     }
 
     /// `of` the bent races where the sprags stand as `y` has them; `None`: they do not bend.
@@ -170,10 +179,10 @@ impl<'a> Rhs<'a> {
         Some(of(&bent))
     }
 
-    /// How far group `g` is pressed, as an angle from first contact, rad.
-    pub(super) fn pressed_rad(&self, g: usize, y: &[f64]) -> f64 {
-        let touch = self.groups[g].model.curve.first_contact_rad();
-        self.bent(y, |bent| bent.pressed_rad(g)).unwrap_or(state_of(y, g)[0] - touch)
+    /// How far group `g` is pressed at `alpha`, as an angle from first contact, rad, where the races are bent already.
+    pub(super) fn pressed_there_rad(&self, g: usize, alpha: f64) -> f64 {
+        let bent = self.bent.as_ref().and_then(|bent| Some(bent.try_borrow().ok()?.pressed_rad(g)));
+        bent.unwrap_or(alpha - self.groups[g].model.curve.first_contact_rad())
     }
 
     /// alpha at which group `g` touches, rad.
@@ -205,8 +214,8 @@ impl<'a> Rhs<'a> {
     /// Push of all sprags on the axis of the inner race after [`Self::look`], N.
     pub(super) fn push_n(&self) -> [f64; 2] {
         let mut push = [0.0; 2];
-        for (seen, group) in self.seen.iter().zip(self.groups) {
-            let Some((seen, axes)) = seen.as_ref().and_then(|s| Some((s, s.axes?))) else { continue };
+        for ((seen, axes), group) in self.seen.iter().zip(&self.sees).zip(self.groups) {
+            let (Some(seen), Some(axes)) = (seen, axes) else { continue };
             let [inner, outer] = arms(&group.model, &seen.point);
             for (i, push) in push.iter_mut().enumerate() {
                 *push += inner * seen.forces.t_bi * axes.races[0][2 + i]
@@ -238,7 +247,8 @@ impl<'a> Rhs<'a> {
     pub(super) fn look<const RADIAL: bool>(&mut self, t: f64, y: &[f64]) -> Vector4<f64> {
         let races = &self.groups[0].model;
         let f = self.torques_nm(t, y);
-        self.bent(y, |_| ());
+        self.looks += 1;
+        self.bend(y);
         for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
             (self.parts[g], self.seen[g]) = (None, None);
             if motion.waits {
@@ -250,8 +260,10 @@ impl<'a> Rhs<'a> {
             let rates = self.goes(g, mode, &sight, y, &own);
             self.parts[g] = Some(GroupRhs::new::<RADIAL>(model, mode, t, &own, &sight, &rates));
             // Forces follow below.
-            let (point, axes) = (sight.point, sight.axes);
-            self.seen[g] = Some(Seen { point, rates, forces: Forces::NONE, axes });
+            self.seen[g] = Some(Seen { point: sight.point, rates, forces: Forces::NONE });
+            if self.axes.is_some() {
+                self.sees[g] = sight.axes;
+            }
         }
         // A contact B that lets go changes the system, at most once each.
         loop {
@@ -289,9 +301,10 @@ impl<'a> Rhs<'a> {
     /// Forces of all while the races go at `x`; whether a contact B has let go.
     fn lets_go(&mut self, x: &Vector4<f64>) -> bool {
         let mut again = false;
-        for (part, seen) in self.parts.iter_mut().zip(&mut self.seen) {
+        for (g, (part, seen)) in self.parts.iter_mut().zip(&mut self.seen).enumerate() {
             let (Some(part), Some(seen)) = (part, seen) else { continue };
-            let (forces, lets_go) = part.under(x);
+            let axes = self.sees.get(g).and_then(Option::as_ref);
+            let (forces, lets_go) = part.under(x, axes);
             (seen.forces, again) = (forces, again || lets_go);
         }
         again
@@ -302,9 +315,9 @@ impl<'a> Rhs<'a> {
         let inertia = self.inertia();
         let mut mass = Matrix4::from_diagonal(&inertia);
         let mut force = self.outside(f, y);
-        for ((part, seen), group) in self.parts.iter().zip(&self.seen).zip(self.groups) {
-            let (Some(part), Some(seen)) = (part, seen) else { continue };
-            let Some(axes) = &part.axes else { continue };
+        let all = self.parts.iter().zip(&self.seen).zip(&self.sees).zip(self.groups);
+        for (((part, seen), axes), group) in all {
+            let (Some(part), Some(seen), Some(axes)) = (part, seen, axes) else { continue };
             let arms = arms(&group.model, &seen.point);
             for (contact, arm) in arms.into_iter().enumerate() {
                 let acts = axes.races[contact] * arm;
@@ -351,7 +364,8 @@ impl<'a> Rhs<'a> {
         acts
     }
 
-    /// Rate of alpha (rad/s) and forces of group `g` in `mode` while the races go at `x`, rad/s^2, whatever the others do.
+    /// Rate of alpha (rad/s) and forces of group `g` in `mode` while the races go at `x`, rad/s^2, whatever the others do; the races
+    /// are bent as `y` has them already.
     pub(super) fn between(
         &self,
         g: usize,
@@ -361,14 +375,15 @@ impl<'a> Rhs<'a> {
         x: &Vector4<f64>,
     ) -> (f64, Forces) {
         let (model, own) = (&self.groups[g].model, state_of(y, g));
-        let sight = self.stands(g, mode.place, t, y, &own);
+        let sight = self.stands_there(g, mode.place, t, y, &own);
         let rates = self.goes(g, mode, &sight, y, &own);
         let mut part = GroupRhs::new::<true>(model, mode, t, &own, &sight, &rates);
-        let (mut forces, lets_go) = part.under(x);
+        let axes = sight.axes.as_ref();
+        let (mut forces, lets_go) = part.under(x, axes);
         if lets_go {
-            forces = part.under(x).0;
+            forces = part.under(x, axes).0;
         }
-        if let Some(seen) = &sight.axes {
+        if let Some(seen) = axes {
             // What a slip's rate is asked for.
             let races = seen.races_rad_s2(&rates, [own[6], own[7]], x, forces.acceleration[1]);
             forces.acceleration[2..].copy_from_slice(&races);
@@ -467,7 +482,7 @@ impl<'a> Rhs<'a> {
             through += works[0].abs() + works[1].abs();
             let speed = model.curve.speed_rad_s();
             damping += model.count * model.damped(&s.point, speed, s.rates[0]).1 * s.rates[0];
-            if let Some(seen) = &s.axes {
+            if let Some(Some(seen)) = self.sees.get(g) {
                 let (inner, outer) = (f.t_bi * s.point.oa, f.t_be * s.point.ob);
                 damping += model.count * seen.taken_w(inner, outer);
             }

@@ -6,7 +6,9 @@ use super::change::Falls;
 use super::found::{FirstSlip, ManyRun, SpragCourse};
 use super::locate::First;
 use super::rhs::Rhs;
-use super::{EACH, FIRST_WORK, HEAD, ManyStart, PROBES, SpragGroup, SpragMotion, WORKS, state_of};
+use super::{
+    BendingWork, EACH, FIRST_WORK, HEAD, ManyStart, PROBES, SpragGroup, SpragMotion, WORKS, state_of,
+};
 use crate::dynamics::cusp::towards_the_cusp_s;
 use crate::dynamics::events::{EVENTS, INNER, N_BI, OUTER};
 use crate::dynamics::model::{Grip, N_STATE, Place};
@@ -113,6 +115,8 @@ impl<'a, const N: usize> Going<'a, N> {
             events: 0,
             inconsistent_choices: 0,
             counters: Counters::default(),
+            looks: 0,
+            bending: BendingWork::default(),
             residual_j: 0.0,
             through_j: 0.0,
         };
@@ -350,12 +354,13 @@ impl<'a, const N: usize> Going<'a, N> {
     }
 
     fn towards_a_cusp_s(&self) -> f64 {
+        self.rhs.bend(&self.y);
         let one = |(g, motion): (usize, &SpragMotion)| {
             if motion.waits {
                 return f64::INFINITY;
             }
             let s = state_of(&self.y, g);
-            towards_the_cusp_s(&motion.mode, self.rhs.pressed_rad(g, &self.y), s[4])
+            towards_the_cusp_s(&motion.mode, self.rhs.pressed_there_rad(g, s[0]), s[4])
         };
         self.rhs.motions.iter().enumerate().map(one).fold(f64::INFINITY, f64::min)
     }
@@ -416,7 +421,8 @@ impl<'a, const N: usize> Going<'a, N> {
         self.hold();
         let now = self.rhs.energy_j(self.t_s, &self.y);
         let works: f64 = self.y[FIRST_WORK..FIRST_WORK + WORKS - 1].iter().sum();
-        self.out.residual_j = works + self.appeared_j - (now - self.start_j);
+        let left = works + self.appeared_j - (now - self.start_j);
+        self.out.residual_j = if left.is_finite() { left } else { 0.0 };
         self.out.through_j = self.y[HEAD - 1];
         for (course, since) in self.out.courses.iter_mut().zip(&self.open_since) {
             course.open_s += since.map_or(0.0, |since| self.t_s - since);
@@ -428,6 +434,7 @@ impl<'a, const N: usize> Going<'a, N> {
         self.out.sprags = (0..self.groups.len()).map(alpha_phi).collect();
         self.out.t_s = self.t_s;
         self.out.races.copy_from_slice(&self.y[..4]);
+        (self.out.looks, self.out.bending) = (self.rhs.looks, self.rhs.bending_work());
         self.out
     }
 }

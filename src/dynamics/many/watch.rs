@@ -13,6 +13,11 @@ const FINE: f64 = 1e-3;
 const NEAR: f64 = 0.1;
 /// Looks at most for one top.
 const CLIMBS: usize = 20;
+/// Looks through which a polynomial tells where a top lies, at least and at most.
+const FEWEST: usize = 5;
+const MOST_NEAR: usize = 7;
+/// How far apart those lie at least, as a part of the first ones' way.
+const APART: f64 = 0.01;
 /// Nearer than this, as a part of a step, two looks are one.
 const ENOUGH: f64 = 1e-6;
 
@@ -22,13 +27,73 @@ struct Looks<const N: usize> {
     /// Ascending, as parts of the step.
     at: Vec<f64>,
     seen: Vec<Vec<Probe>>,
-    bearing_n: Vec<f64>,
+    whole: Vec<Whole>,
+}
+
+/// What is of all sprags together at one time, N.
+#[derive(Clone, Copy)]
+struct Whole {
+    /// Mean N_bi of those that run.
+    mean_n: f64,
+    /// What the bearings hold.
+    bearing_n: f64,
 }
 
 impl<const N: usize> Default for Looks<N> {
     fn default() -> Self {
-        Self { dense: None, at: Vec::new(), seen: Vec::new(), bearing_n: Vec::new() }
+        Self { dense: None, at: Vec::new(), seen: Vec::new(), whole: Vec::new() }
     }
+}
+
+/// The top of the polynomial through some of the `looks` (where and what) that lies next to `guess` in `within`, if its last term there is
+/// less than `fine`. None of them nearer to one another than `apart`, where rounding would be all that tells them apart.
+fn crest(
+    mut looks: Vec<(f64, f64)>,
+    guess: f64,
+    within: [f64; 2],
+    apart: f64,
+    fine: f64,
+) -> Option<(f64, f64)> {
+    looks.sort_by(|a, b| (a.0 - guess).abs().total_cmp(&(b.0 - guess).abs()));
+    let mut near: Vec<(f64, f64)> = Vec::with_capacity(MOST_NEAR);
+    for look in looks {
+        if near.len() < MOST_NEAR && near.iter().all(|kept| (kept.0 - look.0).abs() >= apart) {
+            near.push(look);
+        }
+    }
+    let n = near.len();
+    if n < FEWEST {
+        return None;
+    }
+    // Divided differences.
+    let mut c: Vec<f64> = near.iter().map(|at| at.1).collect();
+    for order in 1..n {
+        for i in (order..n).rev() {
+            c[i] = (c[i] - c[i - 1]) / (near[i].0 - near[i - order].0);
+        }
+    }
+    // Value, slope and second slope.
+    let at = |x: f64| {
+        let (mut value, mut slope, mut bend) = (c[n - 1], 0.0, 0.0);
+        for k in (0..n - 1).rev() {
+            let way = x - near[k].0;
+            bend = bend * way + 2.0 * slope;
+            slope = slope * way + value;
+            value = value * way + c[k];
+        }
+        [value, slope, bend]
+    };
+    let mut top = guess;
+    for _ in 0..4 {
+        let [_, slope, bend] = at(top);
+        top -= slope / bend;
+    }
+    let [value, slope, bend] = at(top);
+    // Next to a look the value is known, but not where the top is: it counts as far off as the next one.
+    let ways = near[1..n - 1].iter().map(|k| top - k.0);
+    let last = c[n - 1] * (top - near[1].0) * ways.product::<f64>();
+    let sits = bend < 0.0 && slope * slope < fine * -bend;
+    (within[0] <= top && top <= within[1] && sits && last.abs() < fine).then_some((top, value))
 }
 
 /// A figure of one group whose largest value is kept.
@@ -48,6 +113,10 @@ impl<const N: usize> Going<'_, N> {
     /// Extremes of all groups in the step.
     pub(super) fn watch(&mut self, step: &Step<N>) -> Result<(), ()> {
         let mut looks = Looks::default();
+        let whole: [Whole; PROBES] = std::array::from_fn(|j| Whole {
+            mean_n: self.mean_n(&self.rhs.probes[j]),
+            bearing_n: self.rhs.bearing_probes_n[j],
+        });
         for g in 0..self.groups.len() {
             if self.rhs.motions[g].waits {
                 continue;
@@ -60,9 +129,9 @@ impl<const N: usize> Going<'_, N> {
                     Watched::Share => course.share,
                     Watched::Bearing => continue,
                 };
-                let (probes, held) = (&self.rhs.probes, &self.rhs.bearing_probes_n);
+                let probes = &self.rhs.probes;
                 let values: [f64; PROBES] =
-                    std::array::from_fn(|j| self.figure(g, figure, &probes[j], held[j]));
+                    std::array::from_fn(|j| self.figure(g, figure, &probes[j][g], &whole[j]));
                 let found = self.most(step, &mut looks, g, figure, &values, best)?;
                 let Some((part, most)) = found else { continue };
                 let (t, course) = (step.t + part * step.h, &mut self.out.courses[g]);
@@ -155,7 +224,7 @@ impl<const N: usize> Going<'_, N> {
         for _ in 0..CLIMBS {
             let inside: Vec<usize> =
                 (0..looks.at.len()).filter(|&j| looks.at[j] >= from && looks.at[j] <= until).collect();
-            let value = |j: usize| self.figure(g, figure, &looks.seen[j], looks.bearing_n[j]);
+            let value = |j: usize| self.figure(g, figure, &looks.seen[j][g], &looks.whole[j]);
             let values: Vec<f64> = inside.iter().map(|&j| value(j)).collect();
             let Some(m) = (0..inside.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])) else { break };
             let at = |j: usize| looks.at[inside[j]];
@@ -174,6 +243,11 @@ impl<const N: usize> Going<'_, N> {
                 }
                 // Where the top lies, and how far a third slope, taken for one of the size of the second in a step, moves it.
                 if bend.abs() * (top - x[1]).abs().max(below * above).powi(2) < 0.1 * fine {
+                    break;
+                }
+                let all = (0..inside.len()).map(|j| (at(j), values[j])).collect();
+                if let Some((part, value)) = crest(all, top, [x[0], x[2]], APART * near, 0.1 * fine) {
+                    found = (part, value.max(found.1));
                     break;
                 }
                 let apart = 0.1 * gap * if above > below { 1.0 } else { -1.0 };
@@ -200,21 +274,23 @@ impl<const N: usize> Going<'_, N> {
         let (t, y) = (step.t + part * step.h, dense.after(part * step.h));
         self.rhs.look::<true>(t, &y);
         looks.at.insert(place, part);
-        looks.seen.insert(place, (0..self.groups.len()).map(|g| self.rhs.probe(g, t, &y)).collect());
-        looks.bearing_n.insert(place, self.rhs.bearing_n(&y));
+        let seen: Vec<_> = (0..self.groups.len()).map(|g| self.rhs.probe(g, t, &y)).collect();
+        looks.whole.insert(place, Whole { mean_n: self.mean_n(&seen), bearing_n: self.rhs.bearing_n(&y) });
+        looks.seen.insert(place, seen);
         Ok(true)
     }
 
-    /// A figure where `seen` is seen of all and the bearings hold `bearing_n`, N.
-    fn figure(&self, g: usize, figure: Watched, seen: &[Probe], bearing_n: f64) -> f64 {
-        let own = &seen[g].figures;
+    /// A figure where `seen` is seen of group `g` and `whole` of all.
+    fn figure(&self, g: usize, figure: Watched, seen: &Probe, whole: &Whole) -> f64 {
+        let own = &seen.figures;
         let loaded_n = self.groups[g].model.loaded_n;
         match figure {
             Watched::Normal => own[N_BI],
             Watched::Tan(contact) if own[N_BI] >= loaded_n => own[contact],
             Watched::Tan(_) => 0.0,
-            Watched::Share => self.share(own[N_BI], |g| seen[g].figures[N_BI], loaded_n),
-            Watched::Bearing => bearing_n,
+            Watched::Share if whole.mean_n > 0.0 && whole.mean_n >= loaded_n => own[N_BI] / whole.mean_n,
+            Watched::Share => 0.0,
+            Watched::Bearing => whole.bearing_n,
         }
     }
 
@@ -226,14 +302,13 @@ impl<const N: usize> Going<'_, N> {
         [offset[0] + x, offset[1] + across]
     }
 
-    /// `own` over the mean of all; 0 where that is less than `loaded_n`, N.
-    fn share(&self, own: f64, normal_n: impl Fn(usize) -> f64, loaded_n: f64) -> f64 {
+    /// Mean N_bi of all that run, N.
+    fn mean_n(&self, seen: &[Probe]) -> f64 {
         let (mut sum, mut all) = (0.0, 0.0);
-        for (g, group) in self.groups.iter().enumerate() {
-            (sum, all) = (sum + group.model.count * normal_n(g), all + group.model.count);
+        for (group, seen) in self.groups.iter().zip(seen) {
+            (sum, all) = (sum + group.model.count * seen.figures[N_BI], all + group.model.count);
         }
-        let mean = sum / all;
-        if mean > 0.0 && mean >= loaded_n { own / mean } else { 0.0 }
+        sum / all
     }
 
     pub(super) fn sample_start(&mut self) {
@@ -275,5 +350,34 @@ impl<const N: usize> Going<'_, N> {
             axis_m: self.axis_m(t, y),
             bearing_n: self.rhs.bearing_n(y),
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::crest;
+
+    /// A smooth top is told as nearly as is claimed or not at all, a kink is not taken for one.
+    #[test]
+    fn a_top_between_looks_is_told_to_what_is_claimed() {
+        let fine = 1e-12;
+        let looks = |of: &dyn Fn(f64) -> f64, width: f64| -> Vec<(f64, f64)> {
+            [-1.0, -0.4, 0.15, 0.5, 0.62, 0.9, 1.1].map(|x| (width * x, of(width * x))).to_vec()
+        };
+        let skew = |x: f64| 1.0 / (1.0 + x * x * (1.0 + 0.5 * x));
+        let kink = |x: f64| 1.0 - x.abs().powf(1.5);
+        let mut told = 0;
+        for i in 0..40 {
+            let width = 0.8_f64.powi(i);
+            let within = [-width, width];
+            if let Some((at, value)) = crest(looks(&skew, width), 0.1 * width, within, 0.01 * width, fine) {
+                told += 1;
+                assert!((value - 1.0).abs() < 2.0 * fine, "{width}: {at} {value}");
+            }
+            assert!(
+                width < 1e-6 || crest(looks(&kink, width), 0.1 * width, within, 0.01 * width, fine).is_none()
+            );
+        }
+        assert!((10..40).contains(&told), "{told}");
     }
 }
