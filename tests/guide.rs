@@ -8,9 +8,11 @@
 mod program;
 
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::{Arc, Mutex, OnceLock};
 
 struct Step {
     command: String,
@@ -117,6 +119,34 @@ fn run(args: &str, input: &str, here: &Path) -> Output {
     child.wait_with_output().unwrap()
 }
 
+/// What a command prints, and name and text of the file that it makes.
+type Made = (Output, Option<(String, Vec<u8>)>);
+
+/// A command that reads no file, run once: many pages begin with the same.
+fn made(args: &str) -> Made {
+    static MADE: Mutex<BTreeMap<String, Arc<OnceLock<Made>>>> = Mutex::new(BTreeMap::new());
+    let once = MADE.lock().unwrap().entry(args.to_owned()).or_default().clone();
+    let making = || {
+        let folder = program::Folder::new();
+        let out = run(args, "", Path::new(&folder.path("")));
+        let name = folder.names().pop();
+        (out, name.map(|name| (name.clone(), std::fs::read(folder.path(&name)).unwrap())))
+    };
+    once.get_or_init(making).clone()
+}
+
+/// `run`; what `new` makes is made once for all pages that have no such file yet.
+fn answered(args: &str, input: &str, here: &Path) -> Output {
+    if args.starts_with("new ") {
+        let (out, file) = made(args);
+        if let Some((name, text)) = file.filter(|(name, _)| !here.join(name).exists()) {
+            std::fs::write(here.join(name), text).unwrap();
+            return out;
+        }
+    }
+    run(args, input, here)
+}
+
 fn copied(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).unwrap();
     for entry in std::fs::read_dir(from).unwrap() {
@@ -142,7 +172,7 @@ fn held(page: &Path) -> usize {
         let (input, command) = with_input(&step.command);
         let Some(args) = command.strip_prefix("sprag-design ") else { continue };
         count += 1;
-        let out = run(args, input, &here);
+        let out = answered(args, input, &here);
         let printed =
             format!("{}{}", String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
         let place = format!("{}: {}", page.display(), step.command);
