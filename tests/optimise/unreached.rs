@@ -42,7 +42,8 @@ fn a_dimension_that_is_no_variable_is_named_where_it_frees() {
         ("law = \"roller\"\nroller_coefficient = 3.944e-5 ", "law = \"elastic\" "),
         ("limits = { keep_contact_to_rpm = 6000 }", "limits = { keep_contact_to_rpm = 6500 }"),
     ];
-    let design = changed(HUANG, &changes);
+    // Five periods of each scene, of thirty.
+    let design = changed(&HUANG.replace("duration_s = 0.3\n", "duration_s = 0.05\n"), &changes);
     let found = search_with(&design, &SearchMethod::default());
     assert!(matches!(found.outcome.status, Status::Infeasible { .. }), "{:?}", found.outcome.status);
     let nobody = &mut Forgetful;
