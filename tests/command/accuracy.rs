@@ -77,7 +77,7 @@ fn ctrl_c_writes_what_was_found() {
     // Far more cases than can be run in the time.
     let args = ["--scenario", "high-6", "--min-step", "1e-4", "--cases", "100000", "--json", "--quiet"];
     let child = tool(&args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    std::thread::sleep(Duration::from_secs(12));
+    std::thread::sleep(Duration::from_secs(6));
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     let out = child.wait_with_output().unwrap();
     assert_eq!(out.status.code(), Some(130), "{}", String::from_utf8_lossy(&out.stderr));

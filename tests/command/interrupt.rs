@@ -97,7 +97,7 @@ fn a_fit_that_is_stopped_tells_and_writes_the_best_so_far() {
         ["identify", MULTI, "--data", &data, "--unknown", "r_i2_mm:3.6:4.6,r_i3_mm:3.6:4.8", "-o", &new];
     // Nothing from outside tells how far a fit has come.
     let mut found = None;
-    for patience_s in [5, 20, 60, 180] {
+    for patience_s in [2, 5, 20, 60, 180] {
         let child = started(&[&asked[..], &endless].concat());
         std::thread::sleep(Duration::from_secs(patience_s));
         ctrl_c(&child);
