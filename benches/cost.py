@@ -50,7 +50,7 @@ def measured(points, nothing):
     phases = {
         "the file: values put in, read": of(r"file::form::DesignForm::at$", r"file::edit::with_values$") + of(r"design::Design>::parse_in$"),
         "curves": curves,
-        "rows of the load state": of(r"smooth::load_rows$", r"margin::load_margins$", r"margin::load::rows$"),
+        "rows of the load state": of(r"smooth::load_rows$", r"margin::load_rows$", r"margin::load_margins$", r"margin::load::rows$"),
         "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - (curves - at_rest), 0.0),
         "pure-rolling runs": of(r"demand::roll$") or of(r"rolling::rolling$") + of(r"rolling::rolling_tracked$"),
     }
