@@ -61,6 +61,16 @@ impl Drive {
         self.courses().filter_map(|c| c.next_knot(t)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Until when nothing that acts changes from `t` (s) on, beyond a knot, s; `None`: it changes there.
+    fn still_until_s(&self, t: f64) -> Option<f64> {
+        let ramp =
+            |given: &FlangeDrive| matches!(given, FlangeDrive::Torque(ramp) if ramp.rate_nm_per_s != 0.0);
+        let still = self.courses().all(|c| c.at(t).1 == 0.0)
+            && !self.flanges.iter().flatten().any(ramp)
+            && self.train.as_ref().is_none_or(Train::acts_alike);
+        still.then(|| self.next_break_s(t))
+    }
+
     /// `t`, or the first time beyond a knot that a step ended at.
     pub fn past_break_s(&self, t: f64) -> f64 {
         self.courses().fold(t, |t, c| c.past_knot(t))
@@ -126,6 +136,11 @@ impl Model {
             }
             None => [inner, outer],
         }
+    }
+
+    /// Until when nothing that acts changes from `t` (s) on, beyond a knot, s; `None`: it changes there.
+    pub fn still_until_s(&self, t: f64) -> Option<f64> {
+        self.drive.still_until_s(t).filter(|_| self.loads.amplitude_nm == 0.0)
     }
 
     /// Acceleration at which the inner and the outer race are moved whatever torque that takes, rad/s^2.

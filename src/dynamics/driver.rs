@@ -8,6 +8,7 @@ use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::probes::{NeverPositive, Observed, Probes, Trail};
 use super::repeat::Repeat;
 use super::run::{FastMotion, Run, RunSettings, Stop, tolerance_at};
+use super::turns::{Turns, turn};
 use super::watch::{Watch, highest, sample_extremes};
 use super::zeno::{Zeno, resolution_s};
 use crate::ode::adaptive::{Adaptive, Size};
@@ -44,6 +45,10 @@ where
     pub(super) zeno: Zeno,
     /// Ends of periods, where whole ones may be jumped.
     pub(super) repeat: Option<Repeat<N>>,
+    /// Turns of the sprag where nothing that acts changes.
+    pub(super) turns: Turns,
+    /// Changes of mode in what was not integrated.
+    pub(super) passed_events: u64,
     /// When the mode has changed last, s, and at which event.
     pub(super) landed: (f64, usize),
     pub(super) stepper: Adaptive<N>,
@@ -92,6 +97,8 @@ where
             audit: None,
             zeno: Zeno::new(),
             repeat: settings.jump_period_s.map(Repeat::new),
+            turns: Turns::NONE,
+            passed_events: 0,
             landed: (f64::NAN, EVENTS),
             stepper: Adaptive::new(settings.tolerance_in(&mode), settings.longest_step_s * 0.1, SMALL),
             tolerance: settings.tolerance,
@@ -147,6 +154,7 @@ where
                 (self.slope, self.probed) = (None, None);
                 self.run.t_s = past;
             }
+            Turns::watch(self);
             let work = self.run.counters.steps + self.run.counters.rejections;
             let (t, y) = (self.run.t_s, self.run.state);
             let mut rhs = trail.slope_in(self.model, self.run.mode, !self.settings.rolling);
@@ -224,10 +232,17 @@ where
         }
         match self.crest(step, probes, dense, None, rhs) {
             Ok(Some((theta, which, d))) => return self.land(step, probes, theta, which, &d, rhs),
-            Ok(None) if self.remember(step, probes, rhs).is_ok() => {
+            Ok(None) => {
+                if let Some((theta, d)) = self.turn_in(step, rhs) {
+                    return self.end_period(step, probes, theta, &d, rhs);
+                }
+                if self.remember(step, probes, rhs).is_err() {
+                    self.stop(Stop::NotFinite);
+                    return false;
+                }
                 self.accept(step, probes.end());
             }
-            _ => {
+            Err(()) => {
                 self.stop(Stop::NotFinite);
                 return false;
             }
@@ -338,13 +353,16 @@ where
         dense: &Dense<N>,
         rhs: &mut Observed,
     ) -> bool {
-        let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
-        let sight = |theta: f64| {
-            let elapsed = theta * step.h();
-            probe(model, &mode, step.t() + elapsed, &dense.after(elapsed), grips)
-        };
+        let (model, mode) = (self.model, self.run.mode);
+        let grips = !self.settings.rolling;
+        let sight = |theta: f64| sight(model, &mode, grips, step, dense, theta);
         let mut there = sight(theta);
         let theta = probes.beyond_a_jump(theta, which, &mut there, sight);
+        if self.awaits_turns()
+            && let Some(theta) = turn(dense, step.h(), theta)
+        {
+            return self.end_period(step, probes, theta, dense, rhs);
+        }
         let h = theta * step.h();
         if h > 0.0 {
             if cusp(mode.place) == Some(which)
@@ -411,7 +429,7 @@ where
     }
 
     /// Extremes, samples and works inside a step that is taken.
-    fn remember(&mut self, step: &Step<N>, probes: &Probes, rhs: &mut Observed) -> Result<(), ()> {
+    pub(super) fn remember(&mut self, step: &Step<N>, probes: &Probes, rhs: &mut Observed) -> Result<(), ()> {
         self.watch.step(&mut self.run, self.repeat.as_mut(), step, probes, rhs)?;
         if let Some(audit) = &mut self.audit {
             audit.step(self.model, &self.run.mode, step, rhs);
@@ -421,7 +439,7 @@ where
 
     /// False where there have been too many.
     pub(super) fn count_event(&mut self) -> bool {
-        let go_on = self.run.events < self.settings.most_events;
+        let go_on = self.run.events - self.passed_events < self.settings.most_events;
         if go_on {
             self.run.events += 1;
         } else {
@@ -447,7 +465,7 @@ where
     }
 
     /// Take over an accepted step, at whose end `end` is seen: constraint, slip records.
-    fn accept(&mut self, step: &Step<N>, end: &Probe) {
+    pub(super) fn accept(&mut self, step: &Step<N>, end: &Probe) {
         let mode = self.run.mode;
         let (t, mut y) = (step.t() + step.h(), *step.y1());
         self.run.counters.steps += 1;
@@ -492,6 +510,19 @@ where
         }
         self.run
     }
+}
+
+/// What is seen in `mode` at the fraction `theta` of `step`.
+pub(super) fn sight<const N: usize>(
+    model: &Model,
+    mode: &Mode,
+    grips: bool,
+    step: &Step<N>,
+    dense: &Dense<N>,
+    theta: f64,
+) -> Probe {
+    let elapsed = theta * step.h();
+    probe(model, mode, step.t() + elapsed, &dense.after(elapsed), grips)
 }
 
 enum Found {

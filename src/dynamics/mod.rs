@@ -33,6 +33,7 @@ mod stick;
 mod stick_table;
 mod swing;
 mod train;
+mod turns;
 mod watch;
 mod zeno;
 

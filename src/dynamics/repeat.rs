@@ -23,6 +23,10 @@
 //! * A motion that repeats with every second to [`STEADY`]th period only is compared and added by so many.
 //!
 //! A motion that does not repeat within [`PATIENCE`] finer periods, a chaotic one, is run to the end as it began.
+//!
+//! Where nothing that acts changes the swings of a sprag are the periods ([`super::turns`]). They end where it turns, not at given
+//! times, and may come to repeat slowly: steps become finer where the differences have not fallen by half within [`STUCK`] turns, and
+//! the run goes on as it began where they cannot.
 
 use super::driver::{Driver, KINDS};
 use super::model::{Mode, Model, N_STATE};
@@ -45,6 +49,9 @@ const SCATTER: f64 = 10.0;
 const PATIENCE: u64 = 400;
 /// What the difference to the period so many before may be of that to the one before where a motion repeats with so many: a choice.
 const SEVERAL: f64 = 0.1;
+/// Turns within which the differences have to fall by half, or steps become finer: a choice, half a tenth of a second of a sprag that
+/// swings in overrun.
+const STUCK: u64 = 200;
 /// Least ratio of a difference to the one before that is believed.
 const LEAST_RATIO: f64 = 0.5;
 
@@ -69,6 +76,7 @@ const ADDED: usize = 15;
 /// What a run has come to at the end of a whole period.
 #[derive(Debug, Clone, Copy)]
 struct Section<const N: usize> {
+    t_s: f64,
     state: [f64; N],
     mode: Mode,
     events: u64,
@@ -78,8 +86,12 @@ struct Section<const N: usize> {
 /// The ends of periods so far.
 #[derive(Debug, Clone)]
 pub(super) struct Repeat<const N: usize> {
-    /// Period of what acts, s.
+    /// Period of what acts, or the last one from turn to turn, s.
     base_s: f64,
+    /// Turns still to come in the present period, where turns end periods.
+    turns: Option<u64>,
+    /// Where what acts changes, s: nothing is jumped beyond.
+    until_s: f64,
     /// With how many of these the motion is taken to repeat: a period from here on.
     each: u64,
     /// How many before may be alike, and for how many ends that has been so.
@@ -88,6 +100,8 @@ pub(super) struct Repeat<const N: usize> {
     count: u64,
     /// How many had been when length or steps of a period last changed.
     since: u64,
+    /// How many when the differences had last fallen by half since then, and what was left.
+    hope: (u64, f64),
     /// Its last ends, the newest last.
     sections: Vec<Section<N>>,
     /// The last differences, the newest first.
@@ -104,13 +118,17 @@ pub(super) struct Repeat<const N: usize> {
 }
 
 impl<const N: usize> Repeat<N> {
+    /// Of what acts with `period_s`.
     pub(super) fn new(period_s: f64) -> Self {
         Self {
             base_s: period_s,
+            turns: None,
+            until_s: f64::INFINITY,
             each: 1,
             several: (1, 0),
             count: 0,
             since: 0,
+            hope: (0, f64::INFINITY),
             sections: Vec::with_capacity(STEADY + 2),
             differences: [f64::INFINITY; STEADY],
             alike: 0,
@@ -121,9 +139,32 @@ impl<const N: usize> Repeat<N> {
         }
     }
 
-    /// End of the present period, s.
+    /// From turn to turn, some `period_s` apart, until what acts changes at `until_s`.
+    pub(super) fn of_turns(period_s: f64, until_s: f64) -> Self {
+        Self { turns: Some(1), until_s, ..Self::new(period_s) }
+    }
+
+    /// Whether turns end periods.
+    pub(super) fn awaits_turns(&self) -> bool {
+        self.turns.is_some()
+    }
+
+    /// The sprag has turned.
+    pub(super) fn turn(&mut self) {
+        self.turns = self.turns.map(|left| left.saturating_sub(1));
+    }
+
+    /// Whether the present period is over at `t`, s.
+    fn is_over(&self, t: f64) -> bool {
+        self.turns.map_or_else(|| t >= self.end_s() * (1.0 - 1e-14), |left| left == 0)
+    }
+
+    /// End of the present period, s; where turns end it, as the one before lets expect.
     pub(super) fn end_s(&self) -> f64 {
-        (self.count + self.each) as f64 * self.base_s
+        match (self.turns, self.sections.last()) {
+            (Some(_), Some(last)) => last.t_s + self.period_s(),
+            _ => (self.count + self.each) as f64 * self.base_s,
+        }
     }
 
     /// Length of a period, s.
@@ -139,25 +180,48 @@ where
     /// Time to the end of the period of `driver`'s run, s; at its end what is there is compared, and periods are jumped where it repeats.
     pub(super) fn left_s(driver: &mut Driver<'_, N>) -> f64 {
         let Some(mut repeat) = driver.repeat.take() else { return f64::INFINITY };
-        if driver.run.t_s >= repeat.end_s() * (1.0 - 1e-14) {
+        if repeat.is_over(driver.run.t_s) {
             repeat.count += repeat.each;
+            repeat.turns = repeat.turns.map(|_| repeat.each);
             match repeat.template.take() {
                 Some((start, periods, error)) => {
+                    let turns = repeat.awaits_turns();
                     repeat.jump(driver, &start, periods, error);
+                    if turns {
+                        Self::leave(driver);
+                    }
                     return f64::INFINITY;
                 }
                 None => repeat.compare(driver),
             }
-            if driver.tolerance < driver.settings.tolerance && repeat.count - repeat.since > PATIENCE {
+            let finer = driver.tolerance < driver.settings.tolerance;
+            if !repeat.awaits_turns() && finer && repeat.count - repeat.since > PATIENCE {
                 driver.tolerance = driver.settings.tolerance;
                 driver.renew(driver.run.mode);
                 return f64::INFINITY;
             }
+            let stuck = repeat.template.is_none() && repeat.count - repeat.hope.0 > STUCK;
+            if repeat.awaits_turns() && stuck {
+                if !driver.refine() {
+                    Self::leave(driver);
+                    return f64::INFINITY;
+                }
+                repeat.start_again();
+            }
             repeat.begin_alike(driver);
         }
         let left_s = repeat.end_s() - driver.run.t_s;
+        let cut_s = if repeat.awaits_turns() { f64::INFINITY } else { left_s };
         driver.repeat = Some(repeat);
-        left_s
+        cut_s
+    }
+
+    /// Nothing is compared any more: `driver`'s run goes on at its own tolerance.
+    pub(super) fn leave(driver: &mut Driver<'_, N>) {
+        driver.repeat = None;
+        driver.tolerance = driver.settings.tolerance;
+        driver.stepper.tolerance.datum = [0.0; N];
+        driver.renew(driver.run.mode);
     }
 
     /// The next period begins as every other: its steps are then those of the one before where its state is.
@@ -185,8 +249,12 @@ where
         if last < 2 {
             return;
         }
+        if self.awaits_turns() {
+            self.base_s = (now.t_s - self.sections[last - 1].t_s) / self.each as f64;
+        }
         let period_s = self.period_s();
-        let left = ((driver.settings.duration_s - driver.run.t_s) / period_s * (1.0 + 1e-12)).floor();
+        let until_s = driver.settings.duration_s.min(self.until_s);
+        let left = ((until_s - driver.run.t_s) / period_s * (1.0 + 1e-12)).floor();
         // One is run as a template.
         let periods = left - 1.0;
         let s = &self.sections;
@@ -199,6 +267,9 @@ where
         let largest = |d: &[f64]| d.iter().fold(0.0, |a: f64, b| a.max(*b));
         let (recent, earlier) = self.differences.split_at(STEADY / 2);
         let (recent, earlier) = (largest(recent), largest(earlier));
+        if self.awaits_turns() && recent < 0.5 * self.hope.1 {
+            self.hope = (self.count, recent);
+        }
         let decay = (recent / earlier).powf(2.0 / STEADY as f64).max(LEAST_RATIO);
         let decays = if decay < 1.0 { recent * decay / (1.0 - decay) } else { f64::INFINITY };
         let whole = last == STEADY + 1;
@@ -207,8 +278,8 @@ where
         let apart = largest(&lags);
         let is_scatter = whole && apart <= 2.0 * recent.max(earlier);
         let error = decays.min(if is_scatter { HIDDEN * apart } else { f64::INFINITY });
-        let alike = now.mode == s[last - 1].mode && gained(last - 1).2 == gained(last).2;
         let allowed = driver.settings.tolerance.max(driver.settings.jump_error);
+        let alike = now.mode == s[last - 1].mode && gained(last - 1).2 == gained(last).2;
         self.alike = if alike && error <= allowed { self.alike + 1 } else { 0 };
         if whole {
             self.sections.remove(0);
@@ -223,17 +294,21 @@ where
         let periods = periods as u64;
         self.template = Some((now, periods, error));
         let from = self.end_s();
-        // A sample at the very end is one of them, whatever rounding says.
-        let until = (self.count + self.each * (1 + periods)) as f64 * self.base_s * (1.0 + 1e-12);
         let start_s = driver.run.t_s;
+        // A sample at the very end is one of them, whatever rounding says.
+        let until = match self.turns {
+            None => (self.count + self.each * (1 + periods)) as f64 * self.base_s * (1.0 + 1e-12),
+            Some(_) => start_s + (1 + periods) as f64 * period_s,
+        };
+        // Not beyond the template's last step, whatever rounding says, and turns are a little less equal.
+        let within = if self.awaits_turns() { from - 1e-6 * period_s } else { from * (1.0 - 1e-13) };
         self.wanted = (driver.watch.next_sample..driver.settings.samples)
             .map(|i| (i, driver.watch.sample_time(i)))
             .skip_while(|&(_, t)| t <= from)
             .take_while(|&(_, t)| t <= until)
             .map(|(i, t)| {
                 let later = ((t - start_s) / period_s).floor();
-                // Not beyond the template's last step, whatever rounding says.
-                (i, later, (t - later * period_s).min(from * (1.0 - 1e-13)))
+                (i, later, (t - later * period_s).min(within))
             })
             .collect();
         self.wanted.sort_by(|a, b| b.2.total_cmp(&a.2));
@@ -247,12 +322,16 @@ where
         self.several = (lag, ends);
         if lag > 1 && ends >= STEADY && self.each == 1 {
             self.each = lag as u64;
-        } else if of_steps && driver.tolerance > FINEST {
-            driver.tolerance = (FINER * driver.tolerance).max(FINEST);
-        } else {
+        } else if !(of_steps && driver.refine()) {
             return;
         }
+        self.start_again();
+    }
+
+    /// The periods to come are compared with one another alone.
+    fn start_again(&mut self) {
         self.since = self.count;
+        self.hope = (self.count, f64::INFINITY);
         self.differences = [f64::INFINITY; STEADY];
         self.sections.drain(..self.sections.len() - 1);
     }
@@ -261,7 +340,8 @@ where
     fn jump(mut self, driver: &mut Driver<'_, N>, start: &Section<N>, periods: u64, error: f64) {
         let (model, now) = (driver.model, Section::of(driver));
         let (drift, added, events) = gain(start, &now);
-        let (n, period_s) = (periods as f64, self.period_s());
+        let n = periods as f64;
+        let period_s = if self.awaits_turns() { now.t_s - start.t_s } else { self.period_s() };
         let span_s = n * period_s;
         let from_s = driver.run.t_s;
         for (_, later, sample) in &mut self.taken {
@@ -288,15 +368,19 @@ where
         driver.run.open_s += n * added[6];
         driver.open_since = driver.open_since.map(|since| since + span_s);
         driver.run.events += periods * events;
+        driver.passed_events += periods * events;
         if let Some(audit) = &mut driver.audit {
             audit.add(n, &added[7..]);
         }
         driver.phase =
             driver.phase.map(|phase| phase + n * (drift[2] - if runs_on(model, 3) { drift[3] } else { 0.0 }));
-        driver.run.t_s = (self.count + self.each * periods) as f64 * self.base_s;
+        driver.run.t_s = match self.turns {
+            None => (self.count + self.each * periods) as f64 * self.base_s,
+            Some(_) => from_s + span_s,
+        };
         (driver.slope, driver.probed) = (None, None);
         (driver.zeno, driver.landed) = (Zeno::new(), (f64::NAN, super::events::EVENTS));
-        driver.run.jump = Some(Jump { from_s, periods, period_s, error, events });
+        driver.run.jumps.push(Jump { from_s, periods, period_s, error, events });
     }
 
     /// Whether a sample of the template lies before `until_s`.
@@ -313,6 +397,18 @@ where
             self.wanted.pop();
             self.taken.push((number, later, at(t)));
         }
+    }
+}
+
+impl<const N: usize> Driver<'_, N>
+where
+    Const<N>: Size,
+{
+    /// Steps scatter less from the next period on, where they can.
+    fn refine(&mut self) -> bool {
+        let can = self.tolerance > FINEST;
+        self.tolerance = self.tolerance.min((FINER * self.tolerance).max(FINEST));
+        can
     }
 }
 
@@ -377,7 +473,7 @@ impl<const N: usize> Section<N> {
         if let Some(audit) = &driver.audit {
             added[7..].copy_from_slice(&audit.sums());
         }
-        Self { state: run.state, mode: run.mode, events: run.events, added }
+        Self { t_s: run.t_s, state: run.state, mode: run.mode, events: run.events, added }
     }
 }
 

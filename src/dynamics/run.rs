@@ -26,6 +26,8 @@ pub struct RunSettings {
     pub samples: usize,
     /// Period of all that acts, s, where whole periods are jumped once the motion repeats ([`super::Jump`]); `None`: none are.
     pub jump_period_s: Option<f64>,
+    /// Whether whole swings of a sprag are jumped once they repeat, where it slides and nothing that acts changes.
+    pub jump_swings: bool,
     /// What a jump may be wrong by in any figure, by its natural size, where the tolerance of the steps is less.
     pub jump_error: f64,
     /// Pure rolling: no friction limit, contact held by tension below first contact.
@@ -49,6 +51,7 @@ impl Default for RunSettings {
             most_steps: 10_000_000,
             samples: 0,
             jump_period_s: None,
+            jump_swings: false,
             jump_error: 0.0,
             rolling: false,
             energy: false,
@@ -299,8 +302,8 @@ pub struct Run<const N: usize = N_STATE> {
     pub(super) stick: Option<Hold>,
     /// Every mode with the time at which it began, s; empty where no samples were asked for.
     pub modes: Vec<(f64, Mode)>,
-    /// Periods that were jumped.
-    pub jump: Option<Jump>,
+    /// Periods that were jumped, stretch by stretch.
+    pub jumps: Vec<Jump>,
     /// What the drivetrain did, where there is one.
     pub train: Option<TrainRun>,
 }
@@ -369,7 +372,7 @@ impl<const N: usize> Run<N> {
             hold: None,
             stick: None,
             modes: Vec::new(),
-            jump: None,
+            jumps: Vec::new(),
             train: None,
         }
     }

@@ -118,7 +118,7 @@ pub struct Simulation {
     /// Modes with the times at which they began, s; empty without samples.
     pub modes: Vec<(f64, Mode)>,
     /// Whole periods that were not integrated, being like the one before.
-    pub jump: Option<Jump>,
+    pub jumps: Vec<Jump>,
     /// The drivetrain, where there is one: at the samples, and at the end.
     pub train: Option<TrainRun>,
     /// Steady overrun: the whole of that scenario, the start of an engagement.

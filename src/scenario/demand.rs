@@ -5,7 +5,7 @@ use super::figures::ErrorEstimate;
 use super::prepare::Prepared;
 use super::simulate::{SLIPPED_M, Settings, verdict};
 use crate::dynamics::{
-    Model, Rolling, RollingTrack, Run, RunSettings, Stop, rolling, rolling_quickly, rolling_read_again,
+    Jump, Model, Rolling, RollingTrack, Run, RunSettings, Stop, rolling, rolling_quickly, rolling_read_again,
     rolling_retraced, rolling_tracked, run, run_while_it_sticks,
 };
 use crate::friction::Stribeck;
@@ -85,6 +85,7 @@ pub(super) fn run_settings(
         most_steps,
         samples,
         jump_period_s: settings.jump_period_s(prepared),
+        jump_swings: !settings.every_period,
         jump_error: JUMPED * settings.tolerance,
         rolling: false,
         energy: settings.energy,
@@ -237,9 +238,11 @@ pub(super) fn roll(
     let mut before = 0;
     let mut model = std::borrow::Cow::Borrowed(&prepared.model);
     let mut never_engages = false;
+    let mut left_out_s = 0.0;
     if prepared.overrun.is_some() {
         let free = run(&prepared.model, prepared.state, prepared.mode, &s);
         before = free.counters.rhs_evaluations;
+        left_out_s = stand_by_left_out_s(&prepared.model, &free.jumps);
         never_engages = free.stop == Stop::Finished && free.engaged.is_none();
         if let Some(start) = free.engaged {
             (state, place) = (start.state, start.place);
@@ -258,7 +261,7 @@ pub(super) fn roll(
     demand.by_bisection = demand.finished && r.required_friction.is_none();
     let mut required = demand.required_friction.filter(|_| demand.finished);
     if demand.by_bisection {
-        let found = bisected(prepared, settings, fineness, near);
+        let found = bisected(prepared, settings, fineness, near, left_out_s);
         required = found.required;
         demand.rhs_evaluations += found.rhs_evaluations;
         demand.interrupted |= found.interrupted;
@@ -266,6 +269,17 @@ pub(super) fn roll(
     demand.required_friction = required;
     demand.slip_margin = slip_margin(&prepared.model, required);
     (r.run, demand)
+}
+
+/// What a scene that begins in overrun need not stand by where friction is bisected, s: from when its swings repeat, by `jumps`, until
+/// what acts changes. Under another friction they may swing on as they began, so that each trial would be run from end to end. The
+/// torque then finds another phase and amplitude of the swing, which no error tells of: what is left out is said.
+pub(crate) fn stand_by_left_out_s(model: &Model, jumps: &[Jump]) -> f64 {
+    let of_start = |jump: &Jump| {
+        let until_s = model.still_until_s(model.drive.past_break_s(0.0))?;
+        (jump.from_s < until_s).then_some(until_s - jump.from_s)
+    };
+    jumps.first().and_then(of_start).unwrap_or(0.0)
 }
 
 /// What [`bisected`] found.
@@ -285,10 +299,23 @@ struct Bisected {
 /// 2. Bisect, by ratio, until the bracket is as narrow as the tolerance of the runs.
 ///
 /// More friction is not always better, so several brackets may exist; this takes the one next to mu_s.
-fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness, near: Option<f64>) -> Bisected {
-    let s = run_settings(prepared, &unaudited(settings), fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
+///
+/// A scene that stands by in overrun before it is driven stands by shorter: `left_out_s` of it are left out.
+fn bisected(
+    prepared: &Prepared,
+    settings: &Settings,
+    fineness: Fineness,
+    near: Option<f64>,
+    left_out_s: f64,
+) -> Bisected {
+    let mut s = run_settings(prepared, &unaudited(settings), fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
     let law = prepared.model.friction;
     let mut model = prepared.model.clone();
+    if left_out_s > 0.0 {
+        s.duration_s -= left_out_s;
+        s.jump_swings = false;
+        model.drive = model.drive.from(left_out_s);
+    }
     let (mut rhs_evaluations, mut interrupted) = (0, false);
     let mut sticks = |mu: f64| {
         model.friction = Stribeck { static_: mu, kinetic: law.kinetic.min(mu), ..law };

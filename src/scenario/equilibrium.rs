@@ -64,7 +64,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         engaged: None,
         first_hold: None,
         modes: Vec::new(),
-        jump: None,
+        jumps: Vec::new(),
         train: None,
         overrun: prepared.overrun,
     }

@@ -20,6 +20,7 @@ mod train;
 
 pub use crate::dynamics::RollingTrack;
 pub use answer::{GaveUp, Simulation, Verdict};
+pub(crate) use demand::stand_by_left_out_s;
 pub use demand::{RollingDemand, demand, demand_quickly, demand_read_again, demand_retraced, demand_tracked};
 pub use equilibrium::overrun_swing;
 pub use error::Scales;

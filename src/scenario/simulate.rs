@@ -32,7 +32,8 @@ pub struct Settings {
     /// scene is longer than 4 s or has more than 400 periods ([`Settings::limits`]).
     pub most_steps: Option<u64>,
     /// Whether every period of a long scene is integrated. Default no: a scene of more than 400 periods of its excitation
-    /// jumps whole periods once they repeat.
+    /// jumps whole periods once they repeat, and so does an overrun in which a sprag swings more often than that and nothing that
+    /// acts changes.
     pub every_period: bool,
     /// Whether the energy balance of the run is made up. Default no.
     pub energy: bool,
@@ -371,7 +372,7 @@ fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
         engaged: run.engaged,
         first_hold: run.first_hold(),
         modes: run.modes.clone(),
-        jump: run.jump,
+        jumps: run.jumps.clone(),
         train: run.train.clone(),
         overrun: prepared.overrun,
     }

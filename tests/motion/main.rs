@@ -22,5 +22,6 @@ mod periodic;
 mod quick;
 mod scenes;
 mod stability;
+mod stand_by;
 mod start;
 mod stated_errors;

@@ -118,7 +118,7 @@ fn shortened<const N: usize>(run: Run<N>, train: Train) -> Run {
         hold: run.hold,
         stick: run.stick,
         modes: run.modes,
-        jump: run.jump,
+        jumps: run.jumps,
         train: Some(train),
     }
 }
