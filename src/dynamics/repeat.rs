@@ -344,8 +344,8 @@ where
         let period_s = if self.awaits_turns() { now.t_s - start.t_s } else { self.period_s() };
         let span_s = n * period_s;
         let from_s = driver.run.t_s;
-        for (_, later, sample) in &mut self.taken {
-            sample.t += *later * period_s;
+        for (number, later, sample) in &mut self.taken {
+            sample.t = driver.watch.sample_time(*number);
             for i in (0..N).filter(|&i| runs_on(model, i)) {
                 sample.state[i] += *later * drift[i];
             }
