@@ -28,6 +28,7 @@ mod repeat;
 mod retrace;
 mod rolling;
 mod run;
+mod settled;
 mod start;
 mod stick;
 mod stick_table;

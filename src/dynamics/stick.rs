@@ -27,6 +27,7 @@ use super::events::FIGURES;
 use super::model::{Model, Place, State};
 use super::probes::Grid;
 use super::run::{Peaks, RunSettings};
+use super::settled::Settled;
 use super::stick_table::{Contacts, Motion, Table};
 use super::watch::highest;
 use crate::numeric::root;
@@ -89,10 +90,10 @@ pub(super) enum Edge {
 /// What is seen at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sight {
-    t: f64,
+    pub(super) t: f64,
     pub(super) y: Pair,
     /// w'' and e''.
-    rates: [f64; 2],
+    pub(super) rates: [f64; 2],
     pub(super) figures: [f64; FIGURES],
 }
 
@@ -204,7 +205,7 @@ impl<'a> Rolls<'a> {
     }
 
     /// Next knot of the torque's course after `t`, s.
-    fn next_knot_s(&self, t: f64) -> f64 {
+    pub(super) fn next_knot_s(&self, t: f64) -> f64 {
         let course = self.model.drive.torque_nm.as_ref();
         course.and_then(|c| c.next_knot(c.past_knot(t))).unwrap_or(f64::INFINITY)
     }
@@ -340,6 +341,10 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
     let mut now = rolls.sight(t, &y);
     run.largest.iter_mut().for_each(|largest| largest.from.now = now);
     run.counters.rhs_evaluations += 1;
+    let loads = &rolls.model.loads;
+    let repeats = if loads.amplitude_nm == 0.0 { 0.0 } else { loads.omega_rad_s };
+    let damped = rolls.model.damping_nm_s_per_rad > 0.0;
+    let mut settled = Settled::new(repeats, settings.duration_s);
     settings.follow.begin_run();
     while t < settings.duration_s {
         if settings.follow.stopped() {
@@ -378,8 +383,14 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
         let until_s = if trial == rest { settings.duration_s.min(knot_s) } else { t + trial };
         let breaks = end.is_none() && rolls.is_knot(until_s);
         run.legs.push(Leg { from_s: t, length_s: trial, until_s, passes: end.is_some(), breaks });
-        if !watch(rolls, &step, end, &mut dense, settings, run) {
+        let range = range(&rolls.probed);
+        if !watch(rolls, &step, end, &range, &mut dense, settings, run) {
             return false;
+        }
+        let reached_s = end.map_or(until_s, |theta| t + theta * trial);
+        if damped && settled.after(rolls, [reached_s, settings.duration_s], &range, &run.peaks.figures()) {
+            run.t_s = reached_s;
+            break;
         }
         match (end, &dense) {
             (Some(theta), Some(d)) => {
@@ -426,6 +437,14 @@ pub(super) fn first_passage(
     let [from, until] = rolls.table.ends();
     // How far beyond an end, positive outside.
     let beyond = |w: f64| (from - w).max(w - until);
+    // Most steps stay far inside: between two probes, no more than half a step apart, w rises by no more than half of the way that it
+    // would go at the larger of its rates there.
+    let (nearest, fastest) = rolls.probed.iter().fold((f64::NEG_INFINITY, 0.0_f64), |(near, fast), s| {
+        (near.max(beyond(s.y[0])), fast.max(s.y[2].abs()))
+    });
+    if nearest + 0.25 * step.h * fastest <= 0.0 {
+        return Some(None);
+    }
     for j in 1..PROBES.len() {
         let [a, b] = [rolls.probed[j - 1].y, rolls.probed[j].y];
         let gap = (PROBES[j] - PROBES[j - 1]) * step.h;
@@ -458,11 +477,24 @@ pub(super) fn first_passage(
     Some(None)
 }
 
-/// Records of the step up to `end`. False: the right-hand side failed.
+/// Least and most of each figure among `probes`.
+fn range(probes: &[Sight]) -> [[f64; 2]; FIGURES] {
+    let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; FIGURES];
+    for Sight { figures, .. } in probes {
+        for ([low, high], f) in range.iter_mut().zip(figures) {
+            *low = if f < low { *f } else { *low };
+            *high = if f > high { *f } else { *high };
+        }
+    }
+    range
+}
+
+/// Records of the step up to `end`; its probes lie within `whole`. False: the right-hand side failed.
 fn watch(
     rolls: &mut Rolls,
     step: &Step<4>,
     end: Option<f64>,
+    whole: &[[f64; 2]; FIGURES],
     dense: &mut Option<Dense<4>>,
     settings: &RunSettings,
     run: &mut Stuck,
@@ -470,17 +502,10 @@ fn watch(
     // A figure is smooth over the step: between probes, of which the fastest swing that such steps follow has a dozen in a
     // period, it rises above them by far less than they differ.
     let best = run.peaks.figures();
-    let may_hold_a_record = |probes: &[Sight]| {
-        let (mut low, mut high) = ([f64::INFINITY; FIGURES], [f64::NEG_INFINITY; FIGURES]);
-        for Sight { figures, .. } in probes {
-            for i in 0..FIGURES {
-                low[i] = if figures[i] < low[i] { figures[i] } else { low[i] };
-                high[i] = if figures[i] > high[i] { figures[i] } else { high[i] };
-            }
-        }
-        std::array::from_fn::<bool, FIGURES, _>(|i| high[i] + (high[i] - low[i]) >= best[i])
+    let may_hold_a_record = |range: &[[f64; 2]; FIGURES]| {
+        std::array::from_fn::<bool, FIGURES, _>(|i| range[i][1] + (range[i][1] - range[i][0]) >= best[i])
     };
-    if end.is_none() && !may_hold_a_record(&rolls.probed).contains(&true) {
+    if end.is_none() && !may_hold_a_record(whole).contains(&true) {
         return true;
     }
     let mut at = PROBES;
@@ -504,7 +529,7 @@ fn watch(
     let grid = Grid { at: &at[..count] };
     let length = last * step.h;
     let fine = 1e-3 * settings.tolerance;
-    let may = may_hold_a_record(&seen[..count]);
+    let may = may_hold_a_record(&range(&seen[..count]));
     let mut peaks = run.peaks;
     let (leg, outset) = (run.legs.len() - 1, rolls.outset());
     for (i, mut best) in run.peaks.figures().into_iter().enumerate() {

@@ -13,6 +13,9 @@ use std::f64::consts::{PI, TAU};
 /// the square of it, below rounding.
 const SLACK_RAD: f64 = 1e-9;
 
+/// What a range of normals is taken to be wider at either end where it is looked at roughly, rad: above all rounding.
+const WIDER_RAD: f64 = 1e-4;
+
 /// A touch less deep than this may be passed over by [`touch_rotation_rad`], m: a choice.
 const PASSED_OVER_M: f64 = 1e-8;
 
@@ -23,9 +26,22 @@ struct Feature {
     from_azimuth: f64,
     /// Not negative, clockwise azimuth falling: normals reach from `from_azimuth - span`.
     span: f64,
+    /// The direction amid its normals, and the cosine of half of what they span, a little more.
+    amid: Vector2<f64>,
+    reach: f64,
 }
 
 impl Feature {
+    fn new(centre: Vector2<f64>, radius: f64, from_azimuth: f64, span: f64) -> Self {
+        let half = (0.5 * span + WIDER_RAD).min(PI);
+        Self { centre, radius, from_azimuth, span, amid: along(from_azimuth - 0.5 * span), reach: half.cos() }
+    }
+
+    /// Whether it may carry a normal along `v`: false where it does not, at a tenth of the cost of an azimuth.
+    fn may_carry(&self, v: &Vector2<f64>) -> bool {
+        v.dot(&self.amid) >= self.reach * v.norm()
+    }
+
     fn carries(&self, azimuth: f64) -> bool {
         let past = self.from_azimuth - azimuth;
         // The remainder of what is less than a turn is itself: no division.
@@ -56,12 +72,7 @@ impl Neighbours {
         let mut features = Vec::with_capacity(2 * segments.len());
         for (segment, next) in segments.iter().zip(segments.iter().cycle().skip(1)) {
             if let super::Segment::Arc { centre_m, radius_m, from_azimuth_rad, sweep_rad } = *segment {
-                features.push(Feature {
-                    centre: centre_m,
-                    radius: radius_m,
-                    from_azimuth: from_azimuth_rad,
-                    span: -sweep_rad,
-                });
+                features.push(Feature::new(centre_m, radius_m, from_azimuth_rad, -sweep_rad));
             }
             let from_azimuth = segment.normal_azimuths().1;
             // Exterior angle, below a half turn in a convex outline; rounding may leave it just below zero.
@@ -69,7 +80,7 @@ impl Neighbours {
             if span > PI {
                 span = 0.0;
             }
-            features.push(Feature { centre: segment.end_m(), radius: 0.0, from_azimuth, span });
+            features.push(Feature::new(segment.end_m(), 0.0, from_azimuth, span));
         }
         Self { features, pitch }
     }
@@ -108,6 +119,9 @@ impl Neighbours {
             }
             for (far, there) in self.features.iter().zip(&there) {
                 let v = s - near.centre - there;
+                if !near.may_carry(&v) {
+                    continue;
+                }
                 let azimuth = v.x.atan2(v.y);
                 if near.carries(azimuth) && far.carries(azimuth + facing) {
                     widest = widest.max(gap(azimuth));

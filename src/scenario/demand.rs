@@ -113,7 +113,8 @@ fn quick_tolerance(prepared: &Prepared, settings: &Settings) -> f64 {
 }
 
 /// As [`demand`], for a search: two equations instead of ten where contact is kept. What it differs by from
-/// [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`).
+/// [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`); where next to nothing damps the swing, below four of them.
+/// It ends before its scene once no more can come ([`crate::dynamics`]'s `settled`).
 pub fn demand_quickly(prepared: &Prepared, settings: &Settings) -> RollingDemand {
     let single = Fineness::single(0.1 * settings.tolerance);
     let fineness = Fineness { quick: Some(quick_tolerance(prepared, settings)), ..single };

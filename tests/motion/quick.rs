@@ -167,6 +167,54 @@ fn the_quick_demand_is_the_demand() {
     assert!(scenes > 15, "{scenes}");
 }
 
+/// The sooner a motion dies away, the sooner its run ends; where it beats or grows for long it is run on. Errors of steps that damping
+/// does not take away add up to some tolerances.
+#[test]
+fn a_quick_run_ends_early_only_where_it_has_settled() {
+    let text = std::fs::read_to_string(MULTI).unwrap();
+    let (mut worst, mut early) = ([0.0_f64; 2], 0);
+    for damping in ["0.0", "0.0003", "0.003", "0.03", "0.3"] {
+        for frequency in ["41.0", "100.0", "130.0", "170.0", "260.0"] {
+            let text = text
+                .replacen(
+                    "viscous_damping_nm_s_per_rad = 0.1",
+                    &format!("viscous_damping_nm_s_per_rad = {damping}"),
+                    1,
+                )
+                .replace("frequency_hz = 100.0", &format!("frequency_hz = {frequency}"));
+            let design = Design::parse(&text, "x.toml").unwrap();
+            for name in ["high-6", "low-10", "rated-45-at-speed"] {
+                let p = prepare(design.scenario(name).unwrap()).unwrap();
+                let exact = demand(&p, &Settings { tolerance: 1e-8, ..Settings::default() });
+                let quick = demand_quickly(&p, &Settings::default());
+                let case = format!("{name}, damping {damping}, {frequency} Hz");
+                assert_eq!(exact.by_bisection, quick.by_bisection, "{case}");
+                if exact.by_bisection {
+                    continue;
+                }
+                let off = [
+                    quick.required_friction.unwrap() / exact.required_friction.unwrap() - 1.0,
+                    quick.contact_margin - exact.contact_margin,
+                    quick.normal_max_n[0] / exact.normal_max_n[0] - 1.0,
+                    quick.normal_max_n[1] / exact.normal_max_n[1] - 1.0,
+                ];
+                let off = off.into_iter().map(f64::abs).fold(0.0, f64::max);
+                // Of a run to the end at its longest steps, with twelve right-hand sides each.
+                let whole = 14.0 * 12.0 * p.duration_s / p.period_s.unwrap();
+                let share = quick.rhs_evaluations as f64 / whole;
+                println!("{case}: {off:.1e}, {share:.2} of the whole");
+                assert!(damping != "0.0" || share > 0.99, "{case}: nothing dies away, {share}");
+                early += u32::from(share < 0.6);
+                let worst = &mut worst[usize::from(damping.parse::<f64>().unwrap() < 0.03)];
+                *worst = worst.max(off);
+            }
+        }
+    }
+    println!("{early} ended early; off at most, damped and hardly damped: {worst:?}");
+    assert!(worst[0] < 1e-6 && worst[1] < 4e-6, "{worst:?}");
+    assert!(early >= 10, "{early}");
+}
+
 /// The multi-arc clutch with law `law`.
 fn multi(law: &str) -> String {
     let text = std::fs::read_to_string(MULTI).unwrap();
