@@ -7,7 +7,9 @@
 //! above the present period is a record.
 
 use super::events::FIGURES;
+use super::probes::Grid;
 use super::stick::{Pair, Rolls, Sight};
+use crate::ode::dop853::{PROBES, hermite};
 
 /// Parts of a period at which it is held against the one before: uneven, so that no swing is met each time where it passes zero.
 const PHASES: [f64; 8] = [0.0, 0.09, 0.23, 0.34, 0.47, 0.61, 0.72, 0.88];
@@ -15,8 +17,6 @@ const PHASES: [f64; 8] = [0.0, 0.09, 0.23, 0.34, 0.47, 0.61, 0.72, 0.88];
 const SAFE: f64 = 2.0;
 /// Periods whose differences tell how fast they fall.
 const KNOWN: usize = 4;
-/// What a figure rises above its highest probe at most, by what it falls to those beside: a parabola and probes as uneven as these 0.17.
-const OVERSHOOT: f64 = 0.25;
 /// Where nothing repeats, periods that the run is taken to have: free swings die away by any clock.
 const CLOCK: f64 = 32.0;
 
@@ -38,8 +38,10 @@ impl Period {
     /// A step with these `probes`, which lie within `range`, is of this period.
     fn rise(&mut self, range: &[[f64; 2]; FIGURES], probes: &[Sight]) {
         for (i, (high, [low, top])) in self.high.iter_mut().zip(range).enumerate() {
-            if top + OVERSHOOT * (top - low) > *high {
-                *high = high.max(highest(i, probes));
+            if top + (top - low) > *high {
+                let value = |j: usize| probes[j].figures[i];
+                let most = (1..probes.len()).fold(0, |most, j| if value(j) > value(most) { j } else { most });
+                *high = high.max(value(most) + Grid { at: &PROBES }.overshoot(most, value));
             }
         }
     }
@@ -137,25 +139,11 @@ impl Settled {
     }
 }
 
-/// What figure `i` of a step with these `probes` is not above, and not by much: about its highest it is a parabola.
-fn highest(i: usize, probes: &[Sight]) -> f64 {
-    let value = |j: usize| probes[j].figures[i];
-    let top = (1..probes.len()).fold(0, |top, j| if value(j) > value(top) { j } else { top });
-    let beside = top.saturating_sub(2)..=(top + 2).min(probes.len() - 1);
-    let low = beside.fold(f64::INFINITY, |low, j| low.min(value(j)));
-    value(top) + OVERSHOOT * (value(top) - low)
-}
-
 /// State at `t` (s) within a step that was `probed`, by cubics from probe to probe.
 fn between(probed: &[Sight], t: f64) -> Pair {
     let k = probed[1..].iter().position(|p| t <= p.t).unwrap_or(probed.len() - 2);
     let (a, b) = (&probed[k], &probed[k + 1]);
     let h = b.t - a.t;
-    let x = (t - a.t) / h;
     let [slope_a, slope_b] = [a, b].map(|p| [p.y[2], p.y[3], p.rates[0], p.rates[1]]);
-    std::array::from_fn(|i| {
-        let rise = b.y[i] - a.y[i];
-        let (from, until) = (h * slope_a[i] - rise, h * slope_b[i] - rise);
-        a.y[i] + x * rise + x * (1.0 - x) * ((1.0 - x) * from - x * until)
-    })
+    hermite((t - a.t) / h, h, [&a.y, &b.y], [&slope_a, &slope_b])
 }

@@ -160,14 +160,9 @@ impl<const N: usize> Step<N> {
         self.h * factor
     }
 
-    /// Cubic Hermite value at t + theta h: no extra evaluations, for a first probe only.
+    /// Value at t + theta h by [`hermite`]: no extra evaluations, for a first probe only.
     pub fn glance(&self, theta: f64) -> [f64; N] {
-        let (a, b) = (theta, 1.0 - theta);
-        std::array::from_fn(|i| {
-            let (m0, m1) = (self.h * self.stages[0][i], self.h * self.slope1[i]);
-            (1.0 + 2.0 * a) * b * b * self.y0[i] + a * b * b * m0 + a * a * (3.0 - 2.0 * a) * self.y1[i]
-                - a * a * b * m1
-        })
+        hermite(theta, self.h, [&self.y0, &self.y1], [&self.stages[0], &self.slope1])
     }
 
     /// Dense output of order 7 over the step (three more evaluations).
@@ -208,6 +203,16 @@ impl<const N: usize> Step<N> {
         }
         Ok(Dense { t: self.t, h: self.h, used, coefficients: c })
     }
+}
+
+/// Cubic of Hermite at the fraction `theta` of a time `h` that goes from the first to the second of `y`, with these slopes there.
+pub fn hermite<const N: usize>(theta: f64, h: f64, y: [&[f64; N]; 2], slopes: [&[f64; N]; 2]) -> [f64; N] {
+    let (a, b) = (theta, 1.0 - theta);
+    std::array::from_fn(|i| {
+        let (m0, m1) = (h * slopes[0][i], h * slopes[1][i]);
+        (1.0 + 2.0 * a) * b * b * y[0][i] + a * b * b * m0 + a * a * (3.0 - 2.0 * a) * y[1][i]
+            - a * a * b * m1
+    })
 }
 
 impl<const N: usize> Dense<N> {
