@@ -429,3 +429,33 @@ fn what_never_varies_has_no_time_and_refused_numbers_are_plain() {
         assert!(said.contains(word), "{said}");
     }
 }
+
+/// Why the scene leaves out what its term starts with; `None` where it does not.
+fn left_out(answer: &Value, term: &str) -> Option<String> {
+    let list = answer["left_out"].as_array().unwrap_or_else(|| panic!("left_out in {answer}"));
+    let found = list.iter().find(|entry| entry["term"].as_str().unwrap().starts_with(term))?;
+    Some(found["why"].as_str().unwrap().to_owned())
+}
+
+#[test]
+fn what_is_left_out_of_a_film_is_what_the_scene_leaves_out() {
+    let oil = "designs/lubricated.toml";
+    let overrun = json(oil, "overrun", &[]);
+    assert_eq!(left_out(&overrun, "lubricant film"), None);
+    assert!(left_out(&overrun, "time that a film takes").unwrap().contains("of the film"));
+    let file = std::fs::read_to_string(oil).unwrap();
+    let oiled = &file[file.find("[lubrication]").unwrap()..file.find("[[scenarios]]").unwrap()];
+    let oiled = Changed::new("oiled", oiled);
+    let wedged = json(oiled.path(), "high-6", &[]);
+    assert!(left_out(&wedged, "lubricant film").unwrap().contains("[lubrication] acts in steady overrun"));
+    assert!(!left_out(&json(DESIGN, "high-6", &[]), "lubricant film").unwrap().contains("[lubrication]"));
+}
+
+#[test]
+fn an_impact_gives_back_what_the_damping_of_the_contacts_leaves() {
+    let why = |set: &[&str]| left_out(&json(DESIGN, "high-6", set), "waves in the bodies").unwrap();
+    assert!(why(&[]).contains("gives an impact back whole"));
+    // e = 1 - 2 c v / 3 at 0.1 m/s and 0.3 s/m: 98 %.
+    let damped = why(&["--set", "contact.hunt_crossley_s_per_m=0.3"]);
+    assert!(damped.contains("rebound of 98 %"), "{damped}");
+}

@@ -225,7 +225,7 @@ pub struct SimulationBody {
     /// Speed of the outer race at which the sprags lift off, rev/min; absent where they stay on up to 60 000.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lift_off_rpm: Option<f64>,
-    /// Growth of a small swing of the sprags about a steady overrun, races at held speeds, 1/s; positive: the overrun does
+    /// Growth of a small swing of the sprags about a steady overrun, races at constant speeds, 1/s; positive: the overrun does
     /// not stay. Absent where they are off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub growth_rate_per_s: Option<f64>,

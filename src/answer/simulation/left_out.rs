@@ -15,11 +15,8 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
     let mut add = |term: &str, why: &str, cost: &str| list.push(LeftOut::new(term, why, cost));
     let kind = &scene.scenario.kind;
     if !kind.is_at_rest() {
-        add(
-            "lubricant film and temperature",
-            "friction is the law (12) of the sliding speed alone",
-            "not estimated",
-        );
+        let (term, why) = film(scene);
+        add(term, why, "not estimated");
         add(
             "mass and friction of the cage",
             "the cage is free and massless, the spring reacts on it",
@@ -39,8 +36,8 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
         );
     }
     add(
-        "impact where a contact closes",
-        "velocities are continuous at touch, nothing bounces",
+        "waves in the bodies where a contact closes",
+        &touch(scene.design.clutch.hunt_crossley_s_per_m),
         "not estimated; none where the contact stays closed",
     );
     add(
@@ -83,6 +80,35 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
         add("growth of the inner race by rotation", "(7) is the outer race's alone", "not estimated");
     }
     list
+}
+
+/// What a scene in motion leaves out of the lubricant, and why: a film is in steady overrun alone ([`crate::scenario::sliding()`]).
+fn film(scene: &Ran) -> (&'static str, &'static str) {
+    let overruns = matches!(scene.scenario.kind, ScenarioKind::Overrun { .. });
+    match (&scene.design.clutch.lubrication, overruns) {
+        (Some(_), true) => (
+            "time that a film takes to form",
+            "friction at A is that of the film at speed and load of the moment, at the temperature of steady overrun",
+        ),
+        (Some(_), false) => (
+            "lubricant film and temperature",
+            "friction is the law (12) of the sliding speed alone; the film of [lubrication] acts in steady overrun",
+        ),
+        (None, _) => {
+            ("lubricant film and temperature", "friction is the law (12) of the sliding speed alone")
+        }
+    }
+}
+
+/// What an impact at touch does in the model; `damping`: of Hunt and Crossley, s/m, whose rebound at small speed v is 1 - 2 c v / 3 of it.
+fn touch(damping: f64) -> String {
+    if damping == 0.0 {
+        return "velocities are continuous at touch, and the contact gives an impact back whole".to_owned();
+    }
+    format!(
+        "velocities are continuous at touch; the damping of the contacts leaves a rebound of {} of an impact of 0.1 m/s",
+        Unit::Percent.show(1.0 - 2.0 / 3.0 * damping * 0.1, 1)
+    )
 }
 
 /// Why a run in steady overrun settles beside the equilibrium, and by how much ([`crate::dynamics::swing()`]).

@@ -18,7 +18,7 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>, settings: &SimulationSet
         && let Some(swing) = overrun_swing(&scene.scenario, prepared).filter(Swing::grows)
     {
         notes.push(format!(
-            "warning: this overrun does not stay: races at held speeds, a small swing of the sprags grows by {} at {}; drag \
+            "warning: this overrun does not stay: races at constant speeds, a small swing of the sprags grows by {} at {}; drag \
              and forces are those of the equilibrium, not what the clutch does; a transient scenario with overrun_rpm shows \
              that",
             Unit::PerSecond.show(swing.growth_rate_per_s, 3),

@@ -1,4 +1,4 @@
-//! The verdict in words, and what of the clutch the figures of a scene are held against.
+//! The verdict in words, and what of the clutch the figures of a scene are compared with.
 
 use super::Ran;
 use crate::answer::roll_over::followed;
