@@ -1,7 +1,7 @@
 //! Whole-number variables: every combination has a climb of its own, the one that leads all starts.
 //!
 //! Enumeration, not branch and bound: the least margin is no convex function, so no relaxation bounds it, and a clutch
-//! has one or two numbers that are counts. Each climb begins at the best optimum so far, in the combination where that point is
+//! has one or two numbers that are counts. Two climbs at a time begin at the best optimum so far, in the combinations where that point is
 //! worth most. So an optimum of another combination that none of these climbs runs into is not found.
 
 use super::desk::Desk;
@@ -11,10 +11,12 @@ use super::starts::{Climbed, Optima, SearchMethod, climb_all, rank, rescued};
 use crate::design::OptimizeVariable;
 use crate::file::with_values;
 use rayon::prelude::*;
-use std::cmp::Ordering;
 
 /// Most combinations that are searched: a choice, some minutes of a usual clutch.
 const MOST: usize = 64;
+
+/// Combinations that are climbed in side by side, from the same point, on however many threads: more would know less of one another.
+const SIDE_BY_SIDE: usize = 2;
 
 /// One combination of whole numbers, and what the search within it came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,7 +105,7 @@ pub(super) fn lead<'a>(
     Ok(survey.led(branches, at, climbed))
 }
 
-/// One climb after the other, each in a combination of its own.
+/// Climbs, each in a combination of its own.
 struct Survey<'a, 'd> {
     desk: &'a Desk<'d>,
     bounds: (&'a [f64], &'a [f64]),
@@ -121,50 +123,65 @@ impl Survey<'_, '_> {
     /// Climbs in each of `left`, as loosely as one of several.
     fn climb_each(&mut self, branches: &mut [(Branch, ClutchProblem)], mut left: Vec<usize>) {
         let settings = self.method.climb.loosely();
-        let tolerance = settings.violation_tolerance;
         while !left.is_empty() && !self.desk.stopped() {
             let next = self.most_promising(branches, &left);
-            left.retain(|&k| k != next);
-            let (branch, problem) = &mut branches[next];
-            let begun = rescued(self.desk, problem, &self.x, self.bounds, self.method);
-            let from = begun.unwrap_or_else(|| self.x.clone());
+            left.retain(|k| !next.contains(k));
             self.desk.begins("search of a whole number");
-            match self.desk.climb(problem, &from, self.bounds, &settings) {
-                Ok(outcome) => {
-                    branch.evaluations += outcome.evaluations;
-                    self.evaluations += outcome.evaluations;
-                    self.derivatives += outcome.derivatives;
-                    let mine = rank(&outcome.evaluation, tolerance);
-                    if mine < branch.rank(tolerance) {
-                        branch.tell(&outcome);
-                    }
-                    if self.best.as_ref().is_none_or(|(_, b)| mine < rank(&b.evaluation, tolerance)) {
-                        self.x.clone_from(&outcome.x);
-                        self.best = Some((next, outcome));
-                    }
-                }
-                Err(why) => {
-                    if branch.ended.is_err() {
-                        branch.ended = Err(why.to_string());
-                    }
-                    self.refusal.get_or_insert(why);
-                }
+            let climb = |&k: &usize| {
+                let problem = &branches[k].1;
+                let begun = rescued(self.desk, problem, &self.x, self.bounds, self.method);
+                let from = begun.unwrap_or_else(|| self.x.clone());
+                self.desk.climb(problem, &from, self.bounds, &settings)
+            };
+            let ends: Vec<_> = next.par_iter().map(climb).collect();
+            for (k, end) in next.into_iter().zip(ends) {
+                self.end(k, &mut branches[k].0, end, settings.violation_tolerance);
             }
         }
     }
 
-    /// The one of `left` in which the best optimum so far is worth most; the first before there is any.
-    fn most_promising(&mut self, branches: &[(Branch, ClutchProblem)], left: &[usize]) -> usize {
-        if self.best.is_none() || left.len() == 1 {
-            return left[0];
+    /// The climb in combination `k` has ended.
+    fn end(&mut self, k: usize, branch: &mut Branch, end: Result<Outcome, Refusal>, tolerance: f64) {
+        let outcome = match end {
+            Ok(outcome) => outcome,
+            Err(why) => {
+                if branch.ended.is_err() {
+                    branch.ended = Err(why.to_string());
+                }
+                self.refusal.get_or_insert(why);
+                return;
+            }
+        };
+        branch.evaluations += outcome.evaluations;
+        self.evaluations += outcome.evaluations;
+        self.derivatives += outcome.derivatives;
+        let mine = rank(&outcome.evaluation, tolerance);
+        if mine < branch.rank(tolerance) {
+            branch.tell(&outcome);
+        }
+        if self.best.as_ref().is_none_or(|(_, b)| mine < rank(&b.evaluation, tolerance)) {
+            self.x.clone_from(&outcome.x);
+            self.best = Some((k, outcome));
+        }
+    }
+
+    /// Those of `left` in which the best optimum so far is worth most, [`SIDE_BY_SIDE`] of them; the first before there is any.
+    fn most_promising(&mut self, branches: &[(Branch, ClutchProblem)], left: &[usize]) -> Vec<usize> {
+        if self.best.is_none() || left.len() <= SIDE_BY_SIDE {
+            let at_once = if self.best.is_none() { 1 } else { SIDE_BY_SIDE };
+            return left.iter().copied().take(at_once).collect();
         }
         self.evaluations += left.len();
         let tolerance = self.method.climb.violation_tolerance;
         let worth = |k: &usize| Some(rank(&self.desk.look(&branches[*k].1, &self.x).ok()?, tolerance));
         let ranks: Vec<_> = left.par_iter().map(worth).collect();
-        let known = left.iter().zip(ranks).filter_map(|(k, rank)| Some((*k, rank?)));
-        let best = known.min_by(|a, b| a.1.partial_cmp(&b.1).unwrap_or(Ordering::Equal));
-        best.map_or(left[0], |(k, _)| k)
+        let mut known: Vec<_> = left.iter().zip(ranks).collect();
+        // Stable: of equal ones the earlier; those without margins last.
+        known.sort_by(|a, b| match (a.1, b.1) {
+            (Some(a), Some(b)) => a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)),
+            (a, b) => b.is_some().cmp(&a.is_some()),
+        });
+        known.into_iter().take(SIDE_BY_SIDE).map(|(k, _)| *k).collect()
     }
 
     /// The end of it: `climbed` is of the one that leads.

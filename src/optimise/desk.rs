@@ -147,9 +147,12 @@ impl<'a> Desk<'a> {
         settings: &Settings,
         known: &[(Vec<f64>, f64)],
     ) -> Result<Outcome, Refusal> {
-        self.run(problem, |problem, run| {
-            let run = SearchRun { known: known.to_vec(), ..run };
-            maximise_least_margin(problem, x0, lo, hi, settings, run)
+        // Within a scope each evaluation shares threads, of a climb that is alone, too.
+        rayon::scope(|_| {
+            self.run(problem, |problem, run| {
+                let run = SearchRun { known: known.to_vec(), ..run };
+                maximise_least_margin(problem, x0, lo, hi, settings, run)
+            })
         })
     }
 }

@@ -248,18 +248,19 @@ pub fn search_problem(
             v.best = *value;
         }
     }
-    let as_searched = problem.assess_at(&outcome.x).map_err(NoSearch::Start)?;
-    let full = problem.at_fidelity(problem.fidelity().sharper());
-    let best = full.assess_at(&outcome.x).map_err(NoSearch::Start)?;
-    evaluations += 2;
     let settled = matches!(outcome.status, Status::Converged | Status::Stalled(_)) && !searched.is_empty();
-    let sensitivity = if settled {
-        desk.begins("sensitivities");
+    let sensitivities = || {
         let whole = problem.fully();
         desk.run(&whole, |whole, run| influence(whole, &outcome.x, &lo, &hi, &method.climb, run)).ok()
-    } else {
-        None
     };
+    let again = |problem: &ClutchProblem| problem.assess_at(&outcome.x).map_err(NoSearch::Start);
+    desk.begins(if settled { "sensitivities" } else { "optimum in full" });
+    let (sensitivity, (best, as_searched)) = rayon::join(
+        || settled.then(sensitivities).flatten(),
+        || rayon::join(|| again(&problem.at_fidelity(problem.fidelity().sharper())), || again(&problem)),
+    );
+    let (best, as_searched) = (best?, as_searched?);
+    evaluations += 2;
     evaluations += sensitivity.as_ref().map_or(0, |s| s.evaluations);
     let prices = match &sensitivity {
         Some(table) => prices(&problem, &best, &outcome, table, (&lo, &hi), &method.climb),

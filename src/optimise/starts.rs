@@ -195,16 +195,23 @@ pub(super) fn climb_all(
             .collect();
         outcomes.into_iter().for_each(|(from, outcome)| found.add(from, outcome));
     };
-    // What the others are for is to find further optima: the design comes first.
-    climb(&mut named, &mut found);
+    let wanted_of = |drawn: usize| {
+        (method.starts.max(1) - usize::from(drawn == 0))
+            .min(method.most_starts.max(method.starts) - 1 - drawn)
+    };
+    // What the others are for is to find further optima: the design comes first, while points for them are looked for.
     let mut drawn = 0;
+    let ((), first) = rayon::join(
+        || climb(&mut named, &mut found),
+        || from_box.draw(desk, problem, (lo, hi), wanted_of(0), method),
+    );
+    let mut ahead = Some(first);
     loop {
-        let wanted = (method.starts.max(1) - usize::from(drawn == 0))
-            .min(method.most_starts.max(method.starts) - 1 - drawn);
+        let wanted = wanted_of(drawn);
         if desk.stopped() || wanted == 0 {
             break;
         }
-        let points = from_box.draw(desk, problem, (lo, hi), wanted, method);
+        let points = ahead.take().unwrap_or_else(|| from_box.draw(desk, problem, (lo, hi), wanted, method));
         let none_left = points.is_empty();
         let name = |i: usize| format!("point {}", drawn + i + 1);
         named.extend(points.into_iter().enumerate().map(|(i, (x, e))| (name(i), x, Some(e))));
