@@ -3,6 +3,8 @@
 
     python3 tests/net/record.py record BINARY CHECKOUT FOLDER    run BINARY on the designs of CHECKOUT, write FOLDER
     python3 tests/net/record.py compare BEFORE AFTER             what differs; exit code 1 where something does
+    python3 tests/net/record.py figures BEFORE AFTER             across versions: each key and column that both have, how many of its
+                                                                 numbers are the same to the last bit, how far the others moved
 
 Recorded are exit code, standard output (JSON and text), the error text, and every file written. Run times are left out
 and so is the hash of a design. Numbers are compared as they are printed, JSON keys and CSV rows in their order.
@@ -10,6 +12,7 @@ Standard library only. Some three minutes with a release build on two cores.
 """
 
 import concurrent.futures
+import csv
 import hashlib
 import json
 import os
@@ -187,6 +190,70 @@ def record(binary, checkout, out):
             print(f"{i}/{len(done)} {job.result()}", file=sys.stderr)
 
 
+# What tells the objects of a list apart, where they have it; else their place does.
+TELLS = ["code", "limit", "figure", "law", "term", "variable", "name", "scenario", "start"]
+
+
+def leaves(value, path, key):
+    """Each value of a JSON answer with where it stands and the key that it has there."""
+    if isinstance(value, dict):
+        for k, v in value.items():
+            yield from leaves(v, path + (k,), key + (k,))
+    elif isinstance(value, list):
+        for i, v in enumerate(value):
+            told = next((str(v[t]) for t in TELLS if isinstance(v, dict) and t in v), str(i))
+            yield from leaves(v, path + (told,), key)
+    else:
+        yield path, ".".join(key), value
+
+
+def parsed(path):
+    """The figures of one recorded output: where each stands, its key, its value; none of what is neither JSON nor CSV."""
+    text = path.read_text()
+    if path.suffix == ".csv":
+        rows = list(csv.reader(line for line in text.splitlines() if not line.startswith("#")))
+        for number, row in enumerate(rows[1:]):
+            for column, cell in zip(rows[0], row):
+                yield (number, row[0] if column != rows[0][0] else "", column), f"column {column}", cell
+    elif text.startswith("{"):
+        try:
+            yield from leaves(json.loads(text), (), ())
+        except ValueError:
+            return
+
+
+def figures(before, after):
+    before, after = pathlib.Path(before), pathlib.Path(after)
+    found, gone = {}, {}
+    for old in sorted(p for p in before.rglob("*") if p.name == "stdout" or p.suffix == ".csv"):
+        new, command = after / old.relative_to(before), old.parent.name.split("-")[0]
+        if not new.exists():
+            continue
+        now = {path: value for path, _, value in parsed(new)}
+        for path, key, value in parsed(old):
+            if path not in now:
+                gone.setdefault((command, key), set()).add(old.parent.name)
+                continue
+            tally = found.setdefault((command, key), [0, 0, 0.0])
+            if now[path] == value:
+                tally[0] += 1
+                continue
+            tally[1] += 1
+            try:
+                a, b = float(value), float(now[path])
+                tally[2] = max(tally[2], abs(a - b) / max(abs(a), abs(b)) if a != b else 0.0)
+            except (TypeError, ValueError):
+                pass
+    print("command  key  same  moved  largest relative move")
+    for (command, key), (same, moved, most) in sorted(found.items()):
+        if moved:
+            print(f"{command}  {key}  {same}  {moved}  {most:.2g}")
+    same = sum(t[0] for t in found.values())
+    print(f"{same} of {sum(t[0] + t[1] for t in found.values())} values that both have are the same")
+    for (command, key), where in sorted(gone.items()):
+        print(f"gone or elsewhere: {command}  {key}  in {len(where)} runs")
+
+
 def compare(before, after):
     before, after = pathlib.Path(before), pathlib.Path(after)
     names = sorted({str(p.relative_to(d)) for d in (before, after) for p in d.rglob("*") if p.is_file()})
@@ -213,5 +280,7 @@ if __name__ == "__main__":
         record(*sys.argv[2:])
     elif len(sys.argv) == 4 and sys.argv[1] == "compare":
         sys.exit(1 if compare(*sys.argv[2:]) else 0)
+    elif len(sys.argv) == 4 and sys.argv[1] == "figures":
+        figures(*sys.argv[2:])
     else:
         sys.exit(__doc__)
