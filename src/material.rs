@@ -1,7 +1,7 @@
 //! Linear elastic, isotropic material.
 //!
 //! In: nothing, or a name. Out: [`Material`], SI, and [`STEELS`] with what their makers allow. Absent: what a stress is
-//! held against (limits belong to `margin`; a design says whether it takes them from here).
+//! compared with (limits belong to `margin`; a design says whether it takes them from here).
 //! Equations: the contact modulus E* used by (1)-(4) and by Hertz.
 
 /// Elastic constants and density, SI.

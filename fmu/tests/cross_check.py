@@ -3,7 +3,7 @@
 cross_check.py TOOL LIBRARY DESIGNS FOLDER writes FOLDER/fmus/2.0/cs/PLATFORM/sprag-design/VERSION/NAME with NAME.fmu, NAME_in.csv,
 NAME_ref.csv, NAME_ref.opt and README.md. The reference is what `simulate` computes, with the same torques on both races as a
 `[[drivetrain]]`: no unit takes part in it. The importers are FMPy and, where it is installed, libcosim (DNV, SINTEF); each reads
-NAME_in.csv and NAME_ref.opt and is held against NAME_ref.csv. The first figure that is not as it should be ends the script.
+NAME_in.csv and NAME_ref.opt and is compared with NAME_ref.csv. The first figure that is not as it should be ends the script.
 """
 
 import csv

@@ -1,7 +1,7 @@
 """A train that this script integrates, with the unit as its clutch, against `simulate` of the same `[[drivetrain]]`.
 
 drivetrain.py TOOL LIBRARY DESIGN FOLDER. Two masters: one that repeats each step until the torques at its end agree with the motion
-(states are taken and given back), of second order, whose two finest lengths of step are extrapolated and held to 1e-6 of each
+(states are taken and given back), of second order, whose two finest lengths of step are extrapolated and must agree to 1e-6 of each
 figure; and one that never goes back, as most do, of first order, extrapolated alike. The first figure that is not as it should be
 ends the script.
 """

@@ -127,7 +127,7 @@ def scene_unit(fmi, scene, start=0.0):
 
 
 def run_scene(fmi, scene, times, start=0.0):
-    """Angles at the end, with the torque straight over each step (FMI 2) or held at its value in the middle (FMI 3)."""
+    """Angles at the end, with the torque straight over each step (FMI 2) or constant at its value in the middle (FMI 3)."""
     amplitude = SCENES[scene][1]
     unit = scene_unit(fmi, scene, start)
     outer = [unit.of["outer.torque"].valueReference]

@@ -13,7 +13,7 @@ use serde::Deserialize;
 /// What happens to the clutch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ScenarioKind {
-    /// Torque held at rest.
+    /// Steady torque at rest.
     Static {
         /// Torque, N m.
         torque_nm: f64,
@@ -216,7 +216,7 @@ impl Scenario {
     pub fn story(&self) -> Vec<Phrase> {
         use Phrase::{Duration, Frequency, Method, Speed, SpeedCourse, Torque, TorqueCourse, Words};
         match self.kind {
-            ScenarioKind::Static { torque_nm } => vec![Torque(torque_nm), Words(" held at rest.")],
+            ScenarioKind::Static { torque_nm } => vec![Torque(torque_nm), Words(", steady, at rest.")],
             ScenarioKind::TorsionalExcitation {
                 preload_nm,
                 amplitude_nm,

@@ -119,7 +119,7 @@ pub struct CurvedApproach {
     pub by_curvature_m2: f64,
 }
 
-/// delta = K N^0.9/l^0.8 in mm and N (Palmgren), held in SI.
+/// delta = K N^0.9/l^0.8 in mm and N (Palmgren), stored in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollerLaw {
     /// delta/N^0.9, m/N^0.9.

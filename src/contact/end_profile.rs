@@ -16,7 +16,7 @@ pub enum EndDrop {
     ///
     /// Lundberg (1939) as in Johnson, *Contact Mechanics*, section 5.3, A = N/(pi E* l): an elliptical
     /// pressure of Hertz's half width a, uniform over the length l = 2b, makes just this displacement more
-    /// than some a from the ends. At the very end the logarithm has no limit; it is held to its value 5e-10 b
+    /// than some a from the ends. At the very end the logarithm has no limit; it keeps its value 5e-10 b
     /// before it, where no body touches. Johnson's finite end value A (1.193 + ln(l/2a)) is not used: cut off
     /// there the end is flat over a/7 and sharp again (1.8 p_0 on cells of 6 um against 1.13 p_0).
     Lundberg {

@@ -146,7 +146,7 @@ impl SliceContact {
     /// Eq. (1): `[S_w]{q} = {Delta}`, unilateral: q_j >= 0, Delta_j = delta - gap_j where q_j > 0,
     /// Delta_j >= delta - gap_j where q_j = 0, sum q = N. `normal_n` <= 0 gives an unloaded solution.
     ///
-    /// The a in w is held to 1e-7..1 lengths, as in [`super::SliceRatio`].
+    /// The a in w is kept within 1e-7..1 lengths, as in [`super::SliceRatio`].
     #[doc(alias = "Eq. (1)")]
     fn solve_between(
         &self,

@@ -14,7 +14,7 @@ use crate::numeric::toeplitz::solve_symmetric;
 /// With uniform Delta, (1)-(2) give delta_slice = delta_H n^2/(sum w . 1^T w^-1 1): only the number of
 /// slices and a/l enter, so one table serves every contact and every load. It is a Chebyshev series in
 /// ln(a/l) over [1e-7, 1], for a 6 mm contact of steel roughly 1e-6 N to 1e6 N; relative error below 1e-9
-/// (5e-14 measured in the test). Outside the range the ratio is held constant, slope 0.
+/// (5e-14 measured in the test). Outside the range the ratio is constant, slope 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SliceRatio {
     slices: usize,

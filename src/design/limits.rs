@@ -1,7 +1,7 @@
 //! Every number of `[limits]`, once: key, range, unit, field, what it needs, words.
 //!
 //! In: nothing. Out: [`Limits`], SI; [`LIMIT_KEYS`]; `LimitsFile`, as written, whose schema is made of the same rows.
-//! Absent: rules that join several keys (`check`), what is held against them (`margin`). Equations: none.
+//! Absent: rules that join several keys (`check`), what is compared with them (`margin`). Equations: none.
 
 use schemars::JsonSchema;
 use serde::Deserialize;

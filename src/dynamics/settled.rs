@@ -1,7 +1,7 @@
 //! When a run that rolls may end before its scene: what is still to come stays below what has been.
 //!
 //! Damping takes away what a motion has begun with and leaves what its excitation keeps up, so most scenes ask for most within
-//! their first periods. At [`PHASES`] of each period the figures are held against those of a period before. Let d be the largest
+//! their first periods. At [`PHASES`] of each period the figures are compared with those of a period before. Let d be the largest
 //! difference of a figure. A swing that is lambda times itself after a period, lambda complex, |lambda| < 1, is d/|lambda - 1| away from
 //! what stays, and differences change by |lambda - 1| of themselves. The run ends when no figure that comes [`SAFE`] times as far
 //! above the present period is a record.
@@ -11,7 +11,7 @@ use super::probes::Grid;
 use super::stick::{Pair, Rolls, Sight};
 use crate::ode::dop853::{PROBES, hermite};
 
-/// Parts of a period at which it is held against the one before: uneven, so that no swing is met each time where it passes zero.
+/// Parts of a period at which it is compared with the one before: uneven, so that no swing is met each time where it passes zero.
 const PHASES: [f64; 8] = [0.0, 0.09, 0.23, 0.34, 0.47, 0.61, 0.72, 0.88];
 /// Times what is still to come as the differences tell it: a choice.
 const SAFE: f64 = 2.0;

@@ -22,7 +22,7 @@ pub(super) struct ScenarioFile {
     pub name: String,
     /// What happens; decides which keys belong.
     pub kind: KindFile,
-    /// static: torque held, N m.
+    /// static: steady torque, N m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub torque_nm: Option<f64>,
     /// torsional-excitation and transient: preload on the inner race, N m.

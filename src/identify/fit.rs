@@ -118,7 +118,7 @@ pub struct Identified {
     pub source: String,
 }
 
-/// Sum that stands for a design that cannot be held against the data.
+/// Sum that stands for a design that cannot be compared with the data.
 const NO_DESIGN: f64 = 1e30;
 
 struct FitProblem<'a> {
@@ -430,7 +430,7 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
 }
 
 /// Shares at which a search begins: the design's own values if they lie between the bounds, then random ones; each can
-/// be held against the data.
+/// be compared with the data.
 fn starts(
     problem: &FitProblem,
     unknowns: &[Unknown],

@@ -23,7 +23,7 @@ pub enum NoFit {
     #[error("no row of the data is there for the fit")]
     NothingToFit,
     /// No design between the bounds answers every observation.
-    #[error("none of {tried} designs between the bounds can be held against every row of the fit; {why}")]
+    #[error("none of {tried} designs between the bounds can be compared with every row of the fit; {why}")]
     Nowhere {
         /// Designs tried.
         tried: usize,
@@ -42,7 +42,7 @@ pub struct SoFar {
     pub values: Vec<f64>,
     /// Sum of the squared scaled residuals there.
     pub sum: f64,
-    /// Designs held against every row of the fit until then.
+    /// Designs compared with every row of the fit until then.
     pub evaluations: usize,
     /// Text of the design file with these values.
     pub source: String,

@@ -60,7 +60,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// Moes' numbers up to which the formula was held against a numerical solution (`tests/reference/film.csv`).
+    /// Moes' numbers up to which the formula was compared with a numerical solution (`tests/reference/film.csv`).
     pub const CHECKED: [f64; 2] = [50.0, 15.0];
 
     /// Whether it lies in that range.

@@ -25,7 +25,7 @@ pub struct OverrunPoint {
     pub state: Overrun,
     /// Contact A on its film, and its heat; `None` without `[lubrication]` and where A is open.
     pub lubricated: Option<Lubricated>,
-    /// The small swing about that equilibrium, races at held speeds; `None` where A is open or nothing slides.
+    /// The small swing about that equilibrium, races at constant speeds; `None` where A is open or nothing slides.
     pub swing: Option<Swing>,
     /// The same with the film's friction alone, without its squeeze; `None` without a film.
     pub swing_by_friction: Option<Swing>,

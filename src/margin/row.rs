@@ -142,7 +142,7 @@ pub struct Margin {
     pub limit: &'static Limit,
     /// Scenario in which it is held, if any.
     pub scene: Option<String>,
-    /// Whether it is the worst sprag of a clutch off centre that is held against a limit for all.
+    /// Whether it is the worst sprag of a clutch off centre that is compared with a limit for all.
     pub off_centre: bool,
     /// Corner of the tolerances at which the clutch stands; `None`: as drawn.
     pub corner: Option<String>,

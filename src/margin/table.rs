@@ -204,7 +204,7 @@ pub static SLIP: Limit = Limit {
     when: When::Scene,
     rule: Rule::Slip,
     explanation: "Static friction from which on the scenario sticks throughout, by a run that rolls without slip, or by \
-                  bisection where that run unloads the contact. Its slip margin mu_s/mu_required - 1 is held against the wanted \
+                  bisection where that run unloads the contact. Its slip margin mu_s/mu_required - 1 is compared with the wanted \
                   one, limits.slip_margin. A smaller wedge angle, more preload or more damping raises it.",
     formula: "the largest |T|/N of both contacts while the scenario rolls; margin mu_s/mu_required - 1",
     source: "Huang 2017, (11) to (15), rolling",

@@ -157,7 +157,7 @@ where
             self.maybe_implicit(room, rhs, slope, longest, rest, counters)
         };
         counters.implicit_steps += u64::from(implicit);
-        // No longer at once after a rejection: a step held by stability would be rejected every other time.
+        // No longer at once after a rejection: a step bounded by stability would be rejected every other time.
         if rejected && !implicit {
             self.h = self.h.min(tried);
         }

@@ -89,7 +89,7 @@ pub struct Simulation {
     pub error: Option<ErrorEstimate>,
     /// Relative error of every figure of an equilibrium; `None` where something is integrated.
     pub equilibrium_error: Option<f64>,
-    /// By what errors are divided before they are held against the tolerance.
+    /// By what errors are divided before they are compared with the tolerance.
     pub scales: Scales,
     /// Whether every error is below the tolerance asked for.
     pub tolerance_reached: bool,

@@ -1,11 +1,11 @@
-//! The error of a simulation held against its tolerance, each figure by its natural size.
+//! The error of a simulation compared with its tolerance, each figure by its natural size.
 
 use super::figures::{ErrorEstimate, FIGURES, Quantity};
 use super::prepare::Prepared;
 use super::simulate::hertz_peak;
 use crate::dynamics::Peaks;
 
-/// By what an error is divided before it is held against the tolerance.
+/// By what an error is divided before it is compared with the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
     length_m: f64,

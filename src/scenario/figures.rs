@@ -1,9 +1,9 @@
-//! The figures of a simulation that have an error, each described once: errors, the tolerance they are held against,
+//! The figures of a simulation that have an error, each described once: errors, the tolerance they are compared with,
 //! JSON and the lines for people are loops over [`FIGURES`].
 
 use super::answer::Simulation;
 
-/// What a figure measures: by what its error is divided before it is held against the tolerance ([`super::Scales`]), and
+/// What a figure measures: by what its error is divided before it is compared with the tolerance ([`super::Scales`]), and
 /// the units that it is shown in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
@@ -90,7 +90,7 @@ macro_rules! figures {
         pub struct ErrorEstimate {
             $($(#[$doc])+ pub $field: f64,)+
             /// By how much the times of the extremes moved between the runs, s, in the order of
-            /// [`crate::dynamics::Peaks::at_s`]. That is no bound, and held against no tolerance: an extreme is flat, and of
+            /// [`crate::dynamics::Peaks::at_s`]. That is no bound, and compared with no tolerance: an extreme is flat, and of
             /// several that are equal within their error any may be named.
             pub extremes_at_s: [f64; 5],
         }

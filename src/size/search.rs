@@ -70,7 +70,7 @@ impl fmt::Display for NoSize {
                     Some(b) => write!(
                         f,
                         "no clutch of this family does it; the nearest carries {} Nm with {} sprags of {:.1} mm in a race space of \
-                         {:.2} mm, held up by {}",
+                         {:.2} mm, stopped by {}",
                         rounded(b.carries_nm, 4),
                         b.count,
                         b.length_m * 1e3,

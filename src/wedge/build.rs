@@ -179,7 +179,7 @@ impl WedgeCurve {
     }
 
     /// The curve at rest of a clutch whose bodies are layers of one linear element through half their length, as a deck for
-    /// CalculiX has them ([`element_share`]): what law `elastic` is held against there.
+    /// CalculiX has them ([`element_share`]): what law `elastic` is compared with there.
     ///
     /// # Errors
     /// As [`Self::build`].

@@ -130,7 +130,7 @@ impl Elastic {
         };
         let inner_wall_m = r.inner_radius_m - r.inner_bore_radius_m;
         let outer_wall_m = r.outer_outside_radius_m - r.outer_radius_m;
-        // What a race wider than the sprags does beyond (5) comes on top; the compression of the body is held already.
+        // What a race wider than the sprags does beyond (5) comes on top; the compression of the body is in it already.
         let own = clutch.contact.facts().whole_bodies;
         let band = |race: &Race| if own { race.band_compliance_m_per_n(s.count, length_m) } else { 0.0 };
         let body_width_m = if own { 0.0 } else { s.width_m };

@@ -185,7 +185,7 @@ pub struct CreepLoss {
 }
 
 impl CreepLoss {
-    /// Damping ratio of a swing between no load and the load, pure number: loss of a cycle over 4 pi times the energy held.
+    /// Damping ratio of a swing between no load and the load, pure number: loss of a cycle over 4 pi times the energy stored.
     pub fn damping_ratio(&self) -> f64 {
         2.0 * self.lost_j / (4.0 * PI * (self.work_j - self.lost_j))
     }

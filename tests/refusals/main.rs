@@ -317,7 +317,7 @@ fn scenarios() {
         Case(&[("preload_nm = 3.34\n", "")], "scenarios[0].preload_nm", "[[scenarios]]", &["add preload_nm", "\"high-6\"", "preload on the inner race, N m"]),
         Case(&[("preload_nm = 3.34\n", "torque_nm = 3.34\npreload_nm = 3.34\n")], "scenarios[0].torque_nm", "torque_nm = 3.34", &["for kind torsional-excitation: preload_nm, amplitude_nm", "remove torque_nm"]),
         Case(&[("kind = \"torsional-excitation\"", "kind = \"overrun\"")], "scenarios[0].overrun_rpm", "[[scenarios]]", &["kind overrun"]),
-        Case(&[("kind = \"torsional-excitation\"", "kind = \"static\"")], "scenarios[0].torque_nm", "[[scenarios]]", &["torque held"]),
+        Case(&[("kind = \"torsional-excitation\"", "kind = \"static\"")], "scenarios[0].torque_nm", "[[scenarios]]", &["steady torque"]),
         Case(&[("kind = \"torsional-excitation\"", "kind = \"engagement\"")], "scenarios[0].bench_inertia_kg_m2", "[[scenarios]]", &["add bench_inertia_kg_m2"]),
         Case(&[("speed_rpm = 0.0", "tourque = 1")], "scenarios[0].tourque", "tourque", &["did you mean torque_nm?"]),
         Case(&[("friction = { static = 0.082, kinetic = 0.082 }", "friction = { static = 0.082 }")], "scenarios[6].friction.static", "{ static = 0.082 }", &["with friction.kinetic = 0.09"]),

@@ -108,7 +108,7 @@ fn what_is_impossible_names_the_limit_and_the_nearest() {
     let best = tried.iter().map(|t| t.carries_nm).fold(0.0, f64::max);
     assert!(best > 1000.0 && best < 50_000.0, "{tried:?}");
     let why = NoSize::None { tried }.to_string();
-    assert!(why.contains("nearest carries") && why.contains("held up by"), "{why}");
+    assert!(why.contains("nearest carries") && why.contains("stopped by"), "{why}");
     // What is said to be possible is possible.
     let nearly = Requirements { torque_nm: 0.9 * best, peak_nm: 0.9 * 1.3 * best, ..ask };
     assert!(sized(&nearly).is_ok(), "{best}");

@@ -77,7 +77,7 @@ pub struct SceneBody<'a> {
     pub published_step_over_one_run: Option<f64>,
     /// What the planner leaves out.
     pub reduced_without: &'a [&'static str],
-    /// What its points are held against.
+    /// What its points are compared with.
     pub reference: ReferenceBody,
     /// Name of the scenario.
     pub scenario: &'a str,

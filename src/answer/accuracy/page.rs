@@ -53,7 +53,7 @@ const OMISSIONS: [&str; 8] = [
     "The published scheme has no slip margin (that takes a second, purely rolling run) and no error estimate. A whole answer \
      of the event method is at least three runs at step tolerances tenfold apart, each with a pure-rolling run beside it \
      unless friction suffices, where that is itself the run (planned model), and with bisection runs where rolling unloads \
-     the contact; so the published scheme is to be held against “one run”.",
+     the contact; so the published scheme is to be compared with “one run”.",
     "The published scheme is run with a band of its own choice: the paper gives none. Steps below the smallest one asked for \
      are left out for their run time.",
     "Engagements, transients and steady overruns are not compared: the published scheme is written for torsional excitation.",

@@ -36,7 +36,7 @@ pub struct UnknownBody<'a> {
 pub struct StoppedBody<'a> {
     /// False: the search has not ended.
     pub converged: bool,
-    /// Designs held against every row of the fit until then.
+    /// Designs compared with every row of the fit until then.
     pub evaluations: usize,
     /// True: it was stopped.
     pub interrupted: bool,

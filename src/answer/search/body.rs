@@ -88,7 +88,7 @@ pub struct Climb {
     /// Where it came from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from: Option<String>,
-    /// The whole numbers that it was held at.
+    /// The whole numbers that it was kept at.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub values: Option<Named>,
     /// How it ended, or why it did not begin.

@@ -258,7 +258,7 @@ impl<'a, const N: usize> Going<'a, N> {
             // What was cut short from outside says nothing against the length before.
             (false, true) => h.max(step.next_h()),
             (false, false) => step.next_h(),
-            // No longer at once after a rejection: a step held by stability would be rejected every other time.
+            // No longer at once after a rejection: a step bounded by stability would be rejected every other time.
             (true, _) => step.next_h().min(tried),
         })
     }

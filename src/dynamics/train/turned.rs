@@ -14,7 +14,7 @@ pub(in crate::dynamics) struct Turned {
 }
 
 impl Turned {
-    /// Of a speed through `points` (s, rad/s), held before and after; `None` where they are no course.
+    /// Of a speed through `points` (s, rad/s), constant before and after; `None` where they are no course.
     pub(in crate::dynamics) fn new(points: Vec<[f64; 2]>) -> Option<Self> {
         let course = Course::new(points.clone())?;
         let mut sums = vec![0.0; points.len()];
