@@ -16,7 +16,9 @@ pub struct Service {
     /// What the contacts bear; `None`: not known, so no life until pitting.
     pub pitting: Option<PittingStrength>,
     /// What the races bear as rings; `None`: not known.
-    pub rings: Option<RingStrength>,
+    pub rings: Option<FatigueStrength>,
+    /// What the bodies of the sprags bear in their narrowest section; `None`: not known.
+    pub sprags: Option<FatigueStrength>,
     /// Whether the sprags engage at the same places of the races every time (indexing by whole turns); else anywhere.
     pub same_places: bool,
     /// Coefficient of variation of the static friction coefficient: standard deviation over mean.
@@ -69,10 +71,10 @@ pub struct PittingStrength {
     pub exponent: f64,
 }
 
-/// One point of the life of a ring under a stress about zero, its slope, and its strength once: cycles = `cycles`
+/// One point of the life of a body under a stress about zero, its slope, and its strength once: cycles = `cycles`
 /// (amplitude/`amplitude_pa`)^-`exponent`, tensile mean stress after Goodman.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RingStrength {
+pub struct FatigueStrength {
     /// Amplitude about zero that is borne `cycles` times, Pa.
     pub amplitude_pa: f64,
     /// Cycles at that amplitude.

@@ -8,7 +8,7 @@ use super::findings::Findings;
 use super::history::HistoryKind;
 use super::scenario_file::ScenarioFile;
 use super::scenarios::{KindFile, Load, refuse_history};
-use crate::clutch::{PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, RingStrength, Service};
+use crate::clutch::{PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, FatigueStrength, Service};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -32,7 +32,10 @@ pub(super) struct LifeFile {
     /// What a contact of sprag and race bears; absent: no life until pitting.
     pub pitting: Option<PittingFile>,
     /// What the races bear as rings; absent: no life until they break.
-    pub rings: Option<RingFile>,
+    pub rings: Option<FatigueFile>,
+    /// What the bodies of the sprags bear half way between their contacts, where `sprags.flanks` bound them; absent: no life until they
+    /// break.
+    pub sprags: Option<FatigueFile>,
     /// Whether every engagement finds the sprags at the same places of the races (indexing by whole turns); absent or false: anywhere.
     #[serde(default)]
     pub same_places: bool,
@@ -107,11 +110,11 @@ fn line_contact() -> f64 {
     20.0 / 3.0
 }
 
-/// One point of the life of a ring under a stress about zero, its slope, and the strength of its steel.
+/// One point of the life of a body under a stress about zero, its slope, and the strength of its steel.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RingFile {
-    /// Amplitude of the hoop stress about zero that is borne `cycles` times, MPa.
+pub(super) struct FatigueFile {
+    /// Amplitude of the stress about zero (of a race: along its circumference) that is borne `cycles` times, MPa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub amplitude_mpa: f64,
     /// Cycles at it, with the reliability that the life shall have.
@@ -193,6 +196,12 @@ pub(super) fn service(
         }
     }
     let pa = |mpa: f64| mpa * 1e6;
+    let fatigue = |f: FatigueFile| FatigueStrength {
+        amplitude_pa: pa(f.amplitude_mpa),
+        cycles: f.cycles,
+        exponent: f.exponent,
+        ultimate_pa: pa(f.ultimate_mpa),
+    };
     Some(Service {
         loads: file
             .loads
@@ -215,12 +224,8 @@ pub(super) fn service(
             cycles: p.cycles,
             exponent: p.exponent,
         }),
-        rings: file.rings.map(|r| RingStrength {
-            amplitude_pa: pa(r.amplitude_mpa),
-            cycles: r.cycles,
-            exponent: r.exponent,
-            ultimate_pa: pa(r.ultimate_mpa),
-        }),
+        rings: file.rings.map(fatigue),
+        sprags: file.sprags.map(fatigue),
         same_places: file.same_places,
         friction_scatter: file.friction_scatter,
         torque_scatter: file.torque_scatter,

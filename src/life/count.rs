@@ -1,4 +1,5 @@
-//! Counting of a torque over time: engagements by their peaks, cycles of the rings by rainflow.
+//! Counting of a torque over time: engagements by their peaks, cycles of the bodies by rainflow. Own code: the registry of
+//! crates has none that counts rainflow.
 
 /// A counted cycle between two torques.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,14 +1,15 @@
-//! What clutches fail of in time: pitting of contacts, fatigue of rings, indentation by a single load, slip by chance.
+//! What clutches fail of in time: pitting of contacts, fatigue of rings and sprags, indentation by a single load, slip by chance.
 //!
 //! In: a `Design` with its [`Service`], and its static curve. Out: [`Life`]: each load with what it does, each place with the
 //! part of its life that is used up; wear in overrun and by slips, and the clutch as it wears. Absent: dynamics (torques are as given).
-//! Equations: Miner's sum, the power laws of [`crate::clutch::PittingStrength`] and [`crate::clutch::RingStrength`], Goodman's mean stress.
+//! Equations: Miner's sum, the power laws of [`crate::clutch::PittingStrength`] and [`crate::clutch::FatigueStrength`], Goodman's mean stress.
 //!
 //! An engagement presses each sprag once along the path that its contact walks, always the same path: the sprag has one load
 //! cycle an engagement. A place of a track is met only where a sprag stands: n_s (walk + 2 a)/(2 pi R) times an engagement
 //! in the mean where sprags come to stand anywhere. The pressure of a cycle is the largest, that at the torque. The stress of a
 //! ring swings from that at the least to that at the largest torque of a cycle, from that of the fit at rest on, bending between the
-//! sprags included: as if the worst place were the same each time.
+//! sprags included: as if the worst place were the same each time. The body of a sprag swings so at either flank of its narrowest
+//! section, pressed by the strut force and bent by it.
 
 pub mod count;
 pub mod slip;
@@ -21,9 +22,9 @@ pub use worn::{
     worn_state,
 };
 
-use crate::clutch::{PittingStrength, RingStrength, Service};
+use crate::clutch::{PittingStrength, FatigueStrength, Service};
 use crate::design::Design;
-use crate::margin::{LoadState, NoMargins, load_state, ring_places_pa, rings_pa};
+use crate::margin::{LoadState, NoMargins, body_flanks_pa, load_state, ring_places_pa, rings_pa};
 use crate::wedge::StaticPoint;
 use count::{engagements, rainflow, turning_points};
 use std::collections::BTreeMap;
@@ -52,26 +53,25 @@ pub enum LifePlace {
     InnerRing,
     /// Outer race as a ring.
     OuterRing,
+    /// Sprag, half way between its contacts.
+    SpragBody,
 }
 
 impl LifePlace {
     /// All, contacts first.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::SpragInside,
         Self::SpragOutside,
         Self::InnerTrack,
         Self::OuterTrack,
         Self::InnerRing,
         Self::OuterRing,
+        Self::SpragBody,
     ];
 
-    /// The race of a ring: 0 inner, 1 outer; `None` of a contact.
-    pub fn race(self) -> Option<usize> {
-        match self {
-            Self::InnerRing => Some(0),
-            Self::OuterRing => Some(1),
-            _ => None,
-        }
+    /// Whether a contact is pressed there; else a body swings between two stresses.
+    pub fn is_contact(self) -> bool {
+        !matches!(self, Self::InnerRing | Self::OuterRing | Self::SpragBody)
     }
 
     fn is_inside(self) -> bool {
@@ -96,6 +96,7 @@ impl LifePlace {
             Self::OuterTrack => ("pitting-outer-track", "pitting of the outer race"),
             Self::InnerRing => ("fatigue-inner-ring", "fatigue of the inner race as a ring"),
             Self::OuterRing => ("fatigue-outer-ring", "fatigue of the outer race as a ring"),
+            Self::SpragBody => ("fatigue-sprag-body", "fatigue of the sprags' bodies"),
         }
     }
 }
@@ -213,7 +214,9 @@ pub fn life(design: &Design, service: &Service) -> Result<Life, NoMargins> {
     let (counted, cycles) = counted(service);
     let loads: Vec<LoadEffect> =
         counted.iter().rev().map(|(torque_nm, n)| effect(design, service, &state, *torque_nm, *n)).collect();
-    let used = LifePlace::ALL.map(|place| used(design, service, &state, place, &loads, &cycles)).to_vec();
+    let there = |place: &LifePlace| *place != LifePlace::SpragBody || design.clutch.sprags.flanks.is_some();
+    let places = LifePlace::ALL.into_iter().filter(there);
+    let used = places.map(|place| used(design, service, &state, place, &loads, &cycles)).collect();
     let largest = loads.first();
     let indents = |pa: Option<f64>| pa.map_or(0.0, |pa| (INDENTING_PA / pa).powi(2));
     let largest_nm = largest.map_or(0.0, |l| l.torque_nm);
@@ -235,7 +238,7 @@ pub fn life(design: &Design, service: &Service) -> Result<Life, NoMargins> {
     })
 }
 
-/// Engagements by torque (N m), rising, and cycles of the rings: (least, largest torque, number).
+/// Engagements by torque (N m), rising, and cycles of the bodies: (least, largest torque, number).
 type Counted = (Vec<(f64, f64)>, Vec<[f64; 3]>);
 
 fn counted(service: &Service) -> Counted {
@@ -342,15 +345,15 @@ fn used(
     cycles: &[[f64; 3]],
 ) -> Used {
     // (cycles, part of the life that they use up, torque)
-    let parts: Vec<(f64, Option<f64>, f64)> = match place.race() {
-        Some(race) => {
+    let parts: Vec<(f64, Option<f64>, f64)> = match place.is_contact() {
+        false => {
             let one = |[from, to, n]: &[f64; 3]| {
-                let part = ring_part(design, service, state, race, *from, *to);
+                let part = swing_part(design, service, state, place, *from, *to);
                 (*n, part.map(|part| n * part), *to)
             };
             cycles.iter().map(one).collect()
         }
-        None => {
+        true => {
             let one = |l: &LoadEffect| {
                 let n = l.engagements * place.times(l);
                 (n, contact_part(service, l, place).map(|part| n * part), l.torque_nm)
@@ -377,30 +380,35 @@ pub fn part_at(
     place: LifePlace,
     torque_nm: f64,
 ) -> Option<f64> {
-    match place.race() {
-        Some(race) => ring_part(design, service, state, race, 0.0, torque_nm),
-        None => {
+    match place.is_contact() {
+        false => swing_part(design, service, state, place, 0.0, torque_nm),
+        true => {
             let load = once(design, service, state, torque_nm);
             contact_part(service, &load, place).map(|part| part * place.times(&load))
         }
     }
 }
 
-/// One swing of a race as a ring between two torques.
-fn ring_part(
+/// One swing of a body between two torques.
+fn swing_part(
     design: &Design,
     service: &Service,
     state: &LoadState,
-    race: usize,
+    place: LifePlace,
     from_nm: f64,
     to_nm: f64,
 ) -> Option<f64> {
-    let places = |torque: f64| match torque > 0.0 {
-        true => Some(ring_places_pa(design, state, race, Some(&state.curve.at_torque(torque)?))),
-        false => Some(ring_places_pa(design, state, race, None)),
+    let stresses_pa = |torque: f64| {
+        let p = if torque > 0.0 { Some(state.curve.at_torque(torque)?) } else { None };
+        match (place, &p) {
+            (LifePlace::SpragBody, Some(p)) => body_flanks_pa(design, state, p),
+            (LifePlace::SpragBody, None) => Some([0.0; 2]),
+            (LifePlace::InnerRing, p) => Some(ring_places_pa(design, state, 0, p.as_ref())),
+            (_, p) => Some(ring_places_pa(design, state, 1, p.as_ref())),
+        }
     };
-    let (low, high) = (places(from_nm)?, places(to_nm)?);
-    let strength = service.rings.as_ref()?;
+    let (low, high) = (stresses_pa(from_nm)?, stresses_pa(to_nm)?);
+    let strength = if place == LifePlace::SpragBody { service.sprags } else { service.rings }?;
     let parts = low.into_iter().zip(high).map(|(low, high)| strength.part(low, high));
     parts.max_by(f64::total_cmp)
 }
@@ -419,9 +427,9 @@ impl PittingStrength {
     }
 }
 
-impl RingStrength {
+impl FatigueStrength {
     /// Part of the life that one swing between two stresses (Pa) uses up: the amplitude about zero that does as much, after
-    /// Goodman, sigma_a/(1 - sigma_m/R_m); all of it where the larger one breaks the ring.
+    /// Goodman, sigma_a/(1 - sigma_m/R_m); all of it where the larger one breaks the body.
     pub fn part(&self, low_pa: f64, high_pa: f64) -> f64 {
         if low_pa.max(high_pa) >= self.ultimate_pa {
             return 1.0;

@@ -1,7 +1,7 @@
 //! What a life comes to, in words: the verdict, what is not known, what it rests on.
 
 use super::{LifeAnswer, LifeKnown};
-use crate::life::INDENTING_PA;
+use crate::life::{INDENTING_PA, LifePlace};
 use crate::report::{Unit, significant};
 
 impl LifeAnswer<'_> {
@@ -24,18 +24,20 @@ impl LifeAnswer<'_> {
 
     /// What no strength is given for, and the key that would give it.
     pub(super) fn not_known(&self) -> Vec<String> {
-        let any = |ring: bool| self.life.not_known().any(|place| place.race().is_some() == ring);
+        let any = |place: LifePlace| self.life.not_known().any(|unknown| unknown == place);
+        let strength = "{ amplitude_mpa = ..., cycles = ..., exponent = ..., ultimate_mpa = ... }";
         let mut all = Vec::new();
-        if any(false) {
+        if any(LifePlace::SpragInside) {
             all.push(
                 "pitting of sprags and races (add pitting = { pressure_mpa = ..., cycles = ... } to [life])"
                     .to_owned(),
             );
         }
-        if any(true) {
-            let strength =
-                "rings = { amplitude_mpa = ..., cycles = ..., exponent = ..., ultimate_mpa = ... }";
-            all.push(format!("fatigue of the races as rings (add {strength} to [life])"));
+        if any(LifePlace::InnerRing) {
+            all.push(format!("fatigue of the races as rings (add rings = {strength} to [life])"));
+        }
+        if any(LifePlace::SpragBody) {
+            all.push(format!("{} (add sprags = {strength} to [life])", LifePlace::SpragBody.names().1));
         }
         if let Some(expected) = self.life.slips.filter(|_| self.life.slips_allowed.is_none()) {
             let expected = significant(expected, 2);
