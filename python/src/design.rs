@@ -378,7 +378,7 @@ impl Design {
     }
 
     /// Common keys and figures of what each stroke of an indexing drive feeds, each as JSON; angles in degrees.
-    #[pyo3(signature = (stroke_deg, frequencies_hz, brake_nm, inertia_kg_m2, inner_drives, allowed_deg))]
+    #[pyo3(signature = (stroke_deg, frequencies_hz, brake_nm, inertia_kg_m2, inner_drives, allowed_deg, springs))]
     #[allow(clippy::too_many_arguments)] // One question, as the class that asks has it.
     fn feed(
         &self,
@@ -389,6 +389,7 @@ impl Design {
         inertia_kg_m2: Option<f64>,
         inner_drives: bool,
         allowed_deg: f64,
+        springs: Vec<f64>,
     ) -> PyResult<(String, String)> {
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
         let ask = FeedSettings {
@@ -398,6 +399,7 @@ impl Design {
             inertia_kg_m2,
             inner_drives,
             allowed_rad: allowed_deg.to_radians(),
+            springs,
             follow: stop.clone(),
         };
         let answer = compute(py, &stop, move || {

@@ -217,6 +217,9 @@ def test_feed_is_that_of_the_command(command: Command) -> None:
     found = sd.Design.load(path).feed(12, [5, 10], brake_nm=50, inertia_kg_m2=0.02)
     assert mine(found.to_dict()) == figures(said.stdout)
     assert found.held == (said.returncode == 0) and [f.frequency_hz for f in found.frequencies] == [5, 10]
+    said = command("feed", path, *flags, "--spring", "0.5,2", "--json", "--quiet")
+    found = sd.Design.load(path).feed(12, [5, 10], brake_nm=50, inertia_kg_m2=0.02, springs=[0.5, 2])
+    assert mine(found.to_dict()) == figures(said.stdout) and [s.factor for s in found.springs] == [0.5, 2]
     for options, word in [({"driver": "cage"}, "outer, inner"), ({"brake_nm": 1e9}, "brake"), ({"allowed_deg": 0.0}, "allowed_deg")]:
         with pytest.raises((ValueError, sd.NoClutch), match=word):
             sd.Design.load(path).feed(12, [5], **options)  # type: ignore[arg-type]

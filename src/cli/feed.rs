@@ -11,6 +11,7 @@ const EXAMPLES: &str = "\
 Examples:
   sprag-design feed designs/indexing.toml --stroke 30 --brake 100 --inertia 0.02
   sprag-design feed designs/indexing.toml --stroke 12 --brake 50 --frequency 5,10,20,40 --allowed 0.05 --report feed.html
+  sprag-design feed designs/indexing.toml --stroke 12 --brake 50 --spring 0.5,2,4
 
 One race swings to and fro, the other is fed against a brake. How much does a stroke feed, and up to how many strokes a second?
 Exit code 1 where strokes of a frequency asked for feed more or less than slow ones by more than is allowed, wind the clutch up
@@ -51,6 +52,9 @@ pub struct FeedArgs {
     /// By how much a stroke may feed more or less than slow ones, deg
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = positive, default_value_t = 0.1)]
     pub allowed: f64,
+    /// Other springs to look at: factors of stiffness and drag torque of the file's
+    #[arg(long, value_name = "FACTOR,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
+    pub spring: Vec<f64>,
 }
 
 impl Run for FeedArgs {
@@ -63,6 +67,7 @@ impl Run for FeedArgs {
             inertia_kg_m2: self.inertia,
             inner_drives: self.driver == Driver::Inner,
             allowed_rad: self.allowed.to_radians(),
+            springs: self.spring.clone(),
             follow: context.follow.clone(),
         };
         context.each(&self.files, |file, design| {

@@ -1491,11 +1491,11 @@ class FedFrequency:
     feed_deg: float | None
     """What a stroke feeds, degrees; ``None`` where none was run to its end, as the four below."""
     error_deg: float | None
-    """By how much that may be off, degrees."""
+    """That less the stroke, degrees; negative: less."""
     off_deg: float | None
     """What it feeds more than slow strokes, degrees."""
     runs_on_deg: float | None
-    """By how much the fed race runs on after the stroke, degrees."""
+    """Turn of the fed race after the driving one has turned back, degrees."""
     unlike_deg: float | None
     """By how much strokes differ, degrees."""
     peak_torque_nm: float | None
@@ -1510,6 +1510,26 @@ class FedFrequency:
     """Whether they feed as they should and the clutch bears it."""
     ended: str | None
     """Why the run ended before its end."""
+    verdict: str
+    """The same in words."""
+
+
+@dataclass(frozen=True)
+class SpringFeed:
+    """How far strokes feed as they should with another spring."""
+
+    factor: float
+    """Stiffness and drag torque of the spring over those of the file."""
+    drag_torque_nm: float
+    """Drag torque of the whole clutch with it, N m."""
+    limit_hz: float | None
+    """Frequency up to which strokes feed as they should, Hz; ``None``: all that were asked for, or not even the first."""
+    lost_hz: float | None
+    """The first frequency asked for at which they do not, Hz; ``None``: none, as the two below."""
+    off_deg: float | None
+    """What a stroke feeds there more than slow ones, degrees."""
+    open_ms: float | None
+    """Time without contact there, ms."""
     verdict: str
     """The same in words."""
 
@@ -1542,6 +1562,8 @@ class Feed(_Common):
     """The limit that sets it."""
     frequencies: tuple[FedFrequency, ...]
     """Each frequency."""
+    springs: tuple[SpringFeed, ...]
+    """Each other spring that was asked for."""
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each frequency. Needs pandas."""

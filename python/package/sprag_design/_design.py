@@ -383,11 +383,12 @@ class Design:
         inertia_kg_m2: float | None = None,
         driver: str = "outer",
         allowed_deg: float = 0.1,
+        springs: Iterable[float] = (),
     ) -> Feed:
         """What each stroke of an indexing drive feeds, at each frequency (Hz, rising; left out: 1 to 50). The race ``driver``,
         ``outer`` or ``inner``, turns by ``stroke_deg`` and back, the other is fed against ``brake_nm`` (left out: the nominal
         torque of ``[limits]``) with ``inertia_kg_m2`` turning with it (left out: the race alone). A stroke may feed more or less than slow
-        ones by ``allowed_deg``.
+        ones by ``allowed_deg``. ``springs``: other springs to look at, factors of stiffness and drag torque of the file's.
 
         Raises ``ValueError`` for what makes no sense, :class:`NoClutch` where the clutch cannot begin so.
         """
@@ -398,7 +399,7 @@ class Design:
             if value is not None:
                 _positive(name, [value])
         frequencies = None if frequencies_hz is None else _positive("frequencies_hz", frequencies_hz)
-        core = self._core.feed(stroke_deg, frequencies, brake_nm, inertia_kg_m2, driver == "inner", allowed_deg)
+        core = self._core.feed(stroke_deg, frequencies, brake_nm, inertia_kg_m2, driver == "inner", allowed_deg, _positive("springs", springs))
         return plain_of(Feed, core)
 
     def problem(self, *, full: bool = False) -> Problem:

@@ -1,6 +1,6 @@
 //! The answer of `feed` by its keys in JSON, and its table.
 
-use super::FeedAnswer;
+use super::{FeedAnswer, SpringFeed};
 use crate::answer::Said;
 use crate::dynamics::Stop;
 use crate::feed::Fed;
@@ -28,6 +28,8 @@ pub struct FeedBody<'a> {
     pub inertia_kg_m2: f64,
     /// The frequency at which it first ceases to feed as it should, Hz; null: not between two that were asked for.
     pub limit_hz: Option<f64>,
+    /// Each other spring, a row of [`FeedAnswer::by_spring`].
+    pub springs: Rows<&'a SpringFeed>,
     /// Angle that the driving race turns by and back, deg.
     pub stroke_deg: f64,
     /// The answer in a sentence.
@@ -53,6 +55,7 @@ impl<'a> FeedBody<'a> {
             bears_nm: bears.map(|b| b.0),
             bears_by: bears.map(|b| b.1.as_str()),
             frequencies: answer.frequencies(),
+            springs: answer.by_spring(),
         }
     }
 }
@@ -63,6 +66,24 @@ fn known(fed: &Fed, rad: f64) -> Option<f64> {
 }
 
 impl FeedAnswer<'_> {
+    /// Each other spring.
+    pub fn by_spring(&self) -> Rows<&SpringFeed> {
+        let lost = |s: &SpringFeed, of: &dyn Fn(&Fed) -> Option<f64>| s.lost.as_ref().and_then(of);
+        Rows::of(&self.springs)
+            .number("factor", "Spring, times", Unit::One, 4, |s| s.factor)
+            .number("drag_torque_nm", "Drag", Unit::NewtonMetre, 4, |s| s.drag_torque_nm)
+            .number("limit_hz", "Held up to", Unit::Hertz, 3, |s| s.limit_hz)
+            .number("lost_hz", "Lost at", Unit::Hertz, 4, move |s| lost(s, &|f| Some(f.frequency_hz)))
+            .number("off_deg", "Against slow ones", Unit::Degree, 3, move |s| {
+                lost(s, &|f| known(f, self.off_rad(f)))
+            })
+            .number("open_ms", "Open", Unit::Millisecond, 3, move |s| lost(s, &|f| Some(f.open_s)))
+            .text("verdict", "Verdict", |s| match &s.lost {
+                None => Cell::Verdict(true, "held".to_owned()),
+                Some(fed) => Cell::Verdict(false, self.word(fed).to_owned()),
+            })
+    }
+
     /// Each frequency.
     pub fn frequencies(&self) -> Rows<&Fed> {
         Rows::of(&self.list)

@@ -8,6 +8,7 @@ pub use body::FeedBody;
 use super::left_out::{LeftOut, left_out_of};
 use super::reengagement::peak_torque_borne;
 use super::{Finding, Said};
+use crate::clutch::Clutch;
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
@@ -15,7 +16,7 @@ use crate::feed::{Fed, Strokes, fed};
 use crate::follow::Follow;
 use crate::margin::load_state;
 use crate::report::plot::Curve;
-use crate::report::{Page, Plot, Table, Unit, plain};
+use crate::report::{Page, Plot, Screen, Table, Unit, plain};
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -34,6 +35,8 @@ pub struct FeedSettings {
     pub inner_drives: bool,
     /// By how much a stroke may feed more or less than slow ones, rad.
     pub allowed_rad: f64,
+    /// Springs to look at beside that of the file: factors of its stiffness and of the drag torque it causes, each 0.001 to 1000.
+    pub springs: Vec<f64>,
     /// Followed and stopped by.
     pub follow: Follow,
 }
@@ -47,6 +50,7 @@ impl Default for FeedSettings {
             inertia_kg_m2: None,
             inner_drives: false,
             allowed_rad: 0.1 * TAU / 360.0,
+            springs: Vec::new(),
             follow: Follow::nobody(),
         }
     }
@@ -68,11 +72,28 @@ pub struct FeedAnswer<'a> {
     pub list: Vec<Fed>,
     /// Frequencies that were asked for.
     pub asked: usize,
+    /// Springs that were asked for.
+    pub springs_asked: usize,
     /// The frequency, Hz, at which it first ceases to feed as it should on the way up, where that lies between two that were asked for; it
     /// may do so again beyond.
     pub limit_hz: Option<f64>,
+    /// The same for each other spring that was asked for.
+    pub springs: Vec<SpringFeed>,
     /// Peak torque that every limit bears, N m, and the limit that sets it.
     pub bears: Option<(f64, String)>,
+}
+
+/// How far strokes feed as they should with another spring.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpringFeed {
+    /// Stiffness and drag torque of the spring over those of the file.
+    pub factor: f64,
+    /// Drag torque of the whole clutch with it, N m.
+    pub drag_torque_nm: f64,
+    /// As [`FeedAnswer::limit_hz`]; `None`: all frequencies are held, or not even the first.
+    pub limit_hz: Option<f64>,
+    /// The first frequency that was asked for whose strokes do not feed as they should; `None`: all are held.
+    pub lost: Option<Fed>,
 }
 
 /// Why there is none.
@@ -162,6 +183,9 @@ impl Design {
             };
             return refused(found, "0.001 to 10000 Hz, each above the one before");
         }
+        if let Some(factor) = settings.springs.iter().find(|factor| !(1e-3..=1e3).contains(*factor)) {
+            return refused(format!("a spring of {} times that of the file", typed(*factor)), "0.001 to 1000 times");
+        }
         let state = load_state(self).ok();
         let windup = |state: &crate::margin::LoadState| {
             state
@@ -180,38 +204,74 @@ impl Design {
             windup_rad,
             list: Vec::new(),
             asked: list.len(),
+            springs_asked: settings.springs.len(),
             limit_hz: None,
+            springs: Vec::new(),
             bears,
         };
         let follow = &settings.follow;
-        let at = |frequency_hz: f64| {
-            fed(&self.clutch, &Strokes { frequency_hz, ..case }, follow).map_err(NoFeed::NoStart)
-        };
         for &frequency_hz in list {
-            let stroke = at(frequency_hz)?;
-            if stroke.ended == Some(Stop::Interrupted) {
-                return Ok(found);
-            }
+            let Some(stroke) = found.stroke(&self.clutch, frequency_hz, follow)? else { return Ok(found) };
             found.list.push(stroke);
         }
-        let lost = found.list.iter().position(|fed| !found.feeds(fed));
-        if let Some(k) = lost.filter(|k| *k > 0) {
-            let (mut held_hz, mut lost_hz) = (list[k - 1], list[k]);
-            for _ in 0..HALVINGS {
-                let middle_hz = (held_hz * lost_hz).sqrt();
-                let stroke = at(middle_hz)?;
-                if stroke.ended == Some(Stop::Interrupted) {
-                    return Ok(found);
-                }
-                if found.feeds(&stroke) { held_hz = middle_hz } else { lost_hz = middle_hz }
-            }
-            found.limit_hz = Some(held_hz);
+        match found.limit(&self.clutch, &found.list, follow)? {
+            Some(limit_hz) => found.limit_hz = limit_hz,
+            None => return Ok(found),
+        }
+        for &factor in &settings.springs {
+            let Some(spring) = found.with_spring(factor, list, follow)? else { return Ok(found) };
+            found.springs.push(spring);
         }
         Ok(found)
     }
 }
 
 impl FeedAnswer<'_> {
+    /// Strokes of one frequency; `None`: stopped.
+    fn stroke(&self, clutch: &Clutch, frequency_hz: f64, follow: &Follow) -> Result<Option<Fed>, NoFeed> {
+        let stroke =
+            fed(clutch, &Strokes { frequency_hz, ..self.case }, follow).map_err(NoFeed::NoStart)?;
+        Ok(Some(stroke).filter(|stroke| stroke.ended != Some(Stop::Interrupted)))
+    }
+
+    /// The frequency at which strokes first cease to feed as they should, Hz, where that lies between two of `list`; `None`: stopped.
+    fn limit(&self, clutch: &Clutch, list: &[Fed], follow: &Follow) -> Result<Option<Option<f64>>, NoFeed> {
+        let lost = list.iter().position(|fed| !self.feeds(fed));
+        let Some(k) = lost.filter(|k| *k > 0) else { return Ok(Some(None)) };
+        let (mut held_hz, mut lost_hz) = (list[k - 1].frequency_hz, list[k].frequency_hz);
+        for _ in 0..HALVINGS {
+            let middle_hz = (held_hz * lost_hz).sqrt();
+            let Some(stroke) = self.stroke(clutch, middle_hz, follow)? else { return Ok(None) };
+            if self.feeds(&stroke) { held_hz = middle_hz } else { lost_hz = middle_hz }
+        }
+        Ok(Some(Some(held_hz)))
+    }
+
+    /// The same with a spring of `factor` times stiffness and drag torque, on the way up through `list`, Hz; `None`: stopped.
+    fn with_spring(
+        &self,
+        factor: f64,
+        list: &[f64],
+        follow: &Follow,
+    ) -> Result<Option<SpringFeed>, NoFeed> {
+        let mut clutch = self.design.clutch.clone();
+        clutch.spring.stiffness_nm_per_rad *= factor;
+        clutch.spring.drag_torque_nm *= factor;
+        let drag_torque_nm = clutch.spring.drag_torque_nm;
+        let mut up = Vec::new();
+        for &frequency_hz in list {
+            let Some(stroke) = self.stroke(&clutch, frequency_hz, follow)? else { return Ok(None) };
+            let held = self.feeds(&stroke);
+            up.push(stroke);
+            if !held {
+                break;
+            }
+        }
+        let limit = self.limit(&clutch, &up, follow)?;
+        let lost = up.pop().filter(|stroke| !self.feeds(stroke));
+        Ok(limit.map(|limit_hz| SpringFeed { factor, drag_torque_nm, limit_hz, lost }))
+    }
+
     /// Feed of a stroke less that of slow ones, rad.
     fn off_rad(&self, fed: &Fed) -> f64 {
         fed.error_rad + self.windup_rad
@@ -262,7 +322,7 @@ impl Said for FeedAnswer<'_> {
     }
 
     fn outcome(&self) -> Finding {
-        if self.list.len() < self.asked {
+        if self.list.len() < self.asked || self.springs.len() < self.springs_asked {
             Finding::Stopped
         } else if self.list.iter().any(|fed| fed.ended.is_some_and(Stop::gave_up)) {
             Finding::NotKnown
@@ -281,6 +341,14 @@ impl Said for FeedAnswer<'_> {
 
     fn table(&self) -> Table {
         self.frequencies().table()
+    }
+
+    fn tables(&self, screen: Screen) -> String {
+        let text = self.table().to_text(screen);
+        match self.springs.is_empty() {
+            true => text,
+            false => text + "\n" + &self.by_spring().table().to_text(screen),
+        }
     }
 
     fn body(&self) -> FeedBody<'_> {
@@ -314,5 +382,11 @@ impl Said for FeedAnswer<'_> {
              strokes feed (both negative: less).",
             &self.table(),
         );
+        if !self.springs.is_empty() {
+            page.heading("Springs").table(
+                "The frequency up to which strokes feed as they should with other springs: stiffness and drag torque times the factor.",
+                &self.by_spring().table(),
+            );
+        }
     }
 }

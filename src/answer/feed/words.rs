@@ -66,7 +66,10 @@ impl FeedAnswer<'_> {
         let hertz = |hz: f64| Unit::Hertz.show(hz, 3);
         let degrees = |rad: f64| Unit::Degree.show(rad, 3);
         if self.outcome() == Finding::Stopped {
-            return format!("stopped after {} of {} frequencies", self.list.len(), self.asked);
+            return match self.list.len() < self.asked {
+                true => format!("stopped after {} of {} frequencies", self.list.len(), self.asked),
+                false => format!("stopped after {} of {} springs", self.springs.len(), self.springs_asked),
+            };
         }
         let rests = self.rests_on();
         let (first, last) = (&self.list[0], &self.list[self.list.len() - 1]);
