@@ -309,7 +309,7 @@ impl Design {
     }
 
     /// Common keys and figures of a slip under load and the blow after it, each as JSON.
-    #[pyo3(signature = (torque_nm, inertia_kg_m2, outer_held, friction, speed_rpm, paths_mm))]
+    #[pyo3(signature = (torque_nm, inertia_kg_m2, outer_held, friction, speed_rpm, paths_mm, over_friction, over_inertia_kg_m2))]
     #[allow(clippy::too_many_arguments)] // One question, as the class that asks has it.
     fn reengage(
         &self,
@@ -320,6 +320,8 @@ impl Design {
         friction: Option<f64>,
         speed_rpm: Option<f64>,
         paths_mm: Option<Vec<f64>>,
+        over_friction: Vec<f64>,
+        over_inertia_kg_m2: Vec<f64>,
     ) -> PyResult<(String, String)> {
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
         let usual = ReengagementSettings::default();
@@ -330,6 +332,8 @@ impl Design {
             friction,
             speed_rad_s: speed_rpm.map(|rpm| rpm * PI / 30.0),
             paths_m: paths_mm.map_or(usual.paths_m, |list| list.iter().map(|mm| 1e-3 * mm).collect()),
+            over_friction,
+            over_inner_inertia_kg_m2: over_inertia_kg_m2,
             follow: stop.clone(),
         };
         let answer = compute(py, &stop, move || {

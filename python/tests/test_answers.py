@@ -172,6 +172,10 @@ def test_reengage_is_that_of_the_command(command: Command) -> None:
     )
     assert mine(found.to_dict()) == figures(said.stdout)
     assert found.held == (said.returncode == 0) and [b.path_mm for b in found.blows] == [0.1, 10]
+    over = ["--over-friction", "0.04,0.06", "--over-inertia", "0.01"]
+    said = command("reengage", path, "--torque", "50", "--friction", "0.06", "--paths", "0.1", *over, "--json", "--quiet")
+    table = starter.reengage([0.1], torque_nm=50, friction=0.06, over_friction=[0.04, 0.06], over_inertia_kg_m2=[0.01])
+    assert mine(table.to_dict()) == figures(said.stdout) and [b.friction for b in table.over] == [0.04, 0.06]
     for options, word in [
         ({"torque_nm": float("nan")}, "torque_nm"),
         ({"paths_mm": [3, 1]}, "longer than the one before"),

@@ -12,6 +12,7 @@ const EXAMPLES: &str = "\
 Examples:
   sprag-design reengage designs/starter.toml --torque 50 --inner-inertia 0.05 --outer-inertia 0.05 --friction 0.06
   sprag-design reengage designs/starter.toml --torque 50 --friction 0.06 --paths 0.1,1,10 --report blow.html
+  sprag-design reengage designs/starter.toml --torque 50 --paths 1 --over-friction 0.02,0.04,0.06 --over-inertia 0.01,0.05
   sprag-design reengage designs/indexing.toml --torque 100 --friction 0.06 --inner-inertia 0.02 --outer-held
 
 The clutch carries a torque; its friction falls, it slips, and after a path of slip the friction is back: how large is the blow? The
@@ -49,6 +50,12 @@ pub struct ReengageArgs {
     /// Paths of slip at the inner track after which the friction is back, mm, rising [default: 0.1,0.3,1,3,10,30]
     #[arg(long, value_name = "MM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
     pub paths: Option<Vec<f64>>,
+    /// Table of blows over frictions in slip, and over --over-inertia where given
+    #[arg(long, value_name = "MU,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
+    pub over_friction: Vec<f64>,
+    /// Table of blows over what turns with the inner race, kg m², and over --over-friction where given
+    #[arg(long, value_name = "KG_M2,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
+    pub over_inertia: Vec<f64>,
 }
 
 impl Run for ReengageArgs {
@@ -62,6 +69,8 @@ impl Run for ReengageArgs {
             friction: self.friction,
             speed_rad_s: self.speed.map(rad_s),
             paths_m: paths_m.unwrap_or(usual.paths_m),
+            over_friction: self.over_friction.clone(),
+            over_inner_inertia_kg_m2: self.over_inertia.clone(),
             follow: context.follow.clone(),
         };
         context.each(&self.files, |file, design| {

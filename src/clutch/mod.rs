@@ -20,7 +20,7 @@ pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use lubrication::{Lubrication, SlipCase};
 pub use question::{Phrase, Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
-pub use service::{PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, FatigueStrength, Service};
+pub use service::{FatigueStrength, PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, Service};
 pub use sharing::{GivenSprag, Sharing, Standing};
 pub use tolerances::Tolerances;
 

@@ -8,7 +8,9 @@ use super::findings::Findings;
 use super::history::HistoryKind;
 use super::scenario_file::ScenarioFile;
 use super::scenarios::{KindFile, Load, refuse_history};
-use crate::clutch::{PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, FatigueStrength, Service};
+use crate::clutch::{
+    FatigueStrength, PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, Service,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -22,7 +22,7 @@ pub use worn::{
     worn_state,
 };
 
-use crate::clutch::{PittingStrength, FatigueStrength, Service};
+use crate::clutch::{FatigueStrength, PittingStrength, Service};
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, body_flanks_pa, load_state, ring_places_pa, rings_pa};
 use crate::wedge::StaticPoint;

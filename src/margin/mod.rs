@@ -18,8 +18,8 @@ mod table;
 mod track_tension;
 mod unlike;
 
-pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use body::body_flanks_pa;
+pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use hoop::{ring_places_pa, rings_pa};
 pub use limits::{Limit, When, limit_of};
 pub use load::{LoadRows, LoadState, load_state, load_state_at, load_state_beside};

@@ -214,10 +214,7 @@ fn a_swing_is_an_engagement_in_each_period() {
     let from_nothing = from_nothing.life().unwrap();
     for place in LifePlace::ALL {
         let [swing, whole] = [&answer, &from_nothing].map(|a| of(&a.life, place));
-        assert!(
-            if place.is_contact() { swing == whole } else { swing < whole },
-            "{place:?} {swing} {whole}"
-        );
+        assert!(if place.is_contact() { swing == whole } else { swing < whole }, "{place:?} {swing} {whole}");
     }
     let text = |answer: &sprag_design::answer::life::LifeAnswer<'_>| answer.text(Default::default());
     assert!(!text(&answer).contains("Not counted: hum") && text(&from_nothing).contains("Not counted: hum"));

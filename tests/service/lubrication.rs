@@ -456,3 +456,54 @@ fn the_commands_answer_and_refuse() {
     refused(("slip_margin = 0.10", "film_lambda = 1.0"), "limits.film_lambda", "film_at_rpm");
     refused(("path_mm = 1.0", "path_mm = -1.0"), "lubrication.slip.path_mm", "0");
 }
+
+/// Fit and gap at the temperatures of the heat network: what the file says at its own temperature, free rings by hand, a fit between
+/// bodies that are as warm unmoved in pressure, and the same angle where all bodies are as warm. Without expansion nothing is known.
+#[test]
+fn fit_and_gap_are_those_of_the_warm_bodies() {
+    let design = Design::read(FILE.as_ref()).unwrap();
+    let bodies = |inner_race: f64, sprags: f64, outer_race: f64| Temperatures {
+        contact: inner_race,
+        inner_race,
+        sprags,
+        outer_race,
+    };
+    let filed = WarmClutch::of(&design).unwrap();
+    let near = |a: f64, b: f64, within: f64| assert!((a / b - 1.0).abs() < within, "{a} {b}");
+    let cold = WarmClutch::at(&design, &bodies(20.0, 20.0, 20.0)).unwrap();
+    near(cold.gap_m, filed.gap_m, 1e-12);
+    near(cold.first_tan_omega, filed.first_tan_omega, 1e-12);
+    let races = &design.clutch.races;
+    let grown = |radius_m: f64, celsius: f64| radius_m * (1.0 + 11.5e-6 * (celsius - 20.0));
+    let warm = WarmClutch::at(&design, &bodies(90.0, 80.0, 60.0)).unwrap();
+    near(warm.gap_m, grown(races.outer_radius_m, 60.0) - grown(races.inner_radius_m, 90.0), 1e-12);
+    // A narrower gap, and wider sprags: they stand flatter.
+    assert!(
+        warm.first_tan_omega > 1.001 * filed.first_tan_omega
+            || warm.first_tan_omega < 0.999 * filed.first_tan_omega
+    );
+    // As in each row of the answer.
+    let answer = design.overrun(&OverrunQuestion::default()).unwrap();
+    let line = answer.lines.last().unwrap();
+    let heat = line.point.lubricated.unwrap().heat.temperatures;
+    assert_eq!(line.warm, WarmClutch::at(&design, &heat));
+    assert!(line.warm.unwrap().gap_m != filed.gap_m && answer.filed == Some(filed));
+    // All as warm: all grows as one.
+    let all = WarmClutch::at(&design, &bodies(120.0, 120.0, 120.0)).unwrap();
+    near(all.gap_m, filed.gap_m * (1.0 + 11.5e-6 * 100.0), 1e-12);
+    near(all.first_tan_omega, filed.first_tan_omega, 1e-9);
+    let text = std::fs::read_to_string(FILE).unwrap();
+    let unknown = Design::parse(&text.replace("expansion_um_per_m_k", "# "), FILE).unwrap();
+    assert_eq!(WarmClutch::at(&unknown, &heat), None);
+    let said = unknown.overrun(&OverrunQuestion::default()).unwrap().text(Default::default());
+    assert!(said.contains("need expansion_um_per_m_k"), "{said}");
+    // A housing as warm as its race holds it as before; a warmer race presses more.
+    let fitted = text.replace(
+        "[spring]",
+        "press_fit = { outer_interference_um = 20.0, housing_outside_radius_mm = 40.0 }\n\n[spring]",
+    );
+    let fitted = Design::parse(&fitted, FILE).unwrap();
+    let pressed = [20.0, 120.0].map(|c| WarmClutch::at(&fitted, &bodies(c, c, c)).unwrap().joint_pa[1]);
+    near(pressed[1], pressed[0], 2e-3);
+    assert!(pressed[0] > 1e6);
+}

@@ -29,6 +29,44 @@ fn peak(blow: &Blow) -> f64 {
     blow.peak.unwrap().torque_nm
 }
 
+/// Blows over friction and inertia: each is that of its own case; what holds does not slip; the heavier the race the harder the blow, and less
+/// friction lets it run faster.
+#[test]
+fn blows_over_friction_and_inertia() {
+    let design = Design::read(FILE.as_ref()).unwrap();
+    let frictions = [0.04, 0.06, 0.11];
+    let asked = ReengagementSettings {
+        torque_nm: Some(50.0),
+        inertia_kg_m2: [Some(0.05), Some(0.05)],
+        friction: Some(0.06),
+        paths_m: vec![1e-4, 1e-3],
+        over_friction: frictions.to_vec(),
+        over_inner_inertia_kg_m2: vec![0.01, 0.05],
+        ..ReengagementSettings::default()
+    };
+    let answer = design.reengagement(&asked).unwrap();
+    assert_eq!(answer.over.len(), 12);
+    for at in &answer.over {
+        let own = found(&case(at.friction, [at.inner_inertia_kg_m2, 0.05], &[1e-4, 1e-3]));
+        assert_eq!(own.holds.is_some(), at.holds);
+        assert_eq!(at.blow.as_ref(), own.list.get(usize::from(at.path_m == 1e-3)));
+    }
+    let blow = |friction: f64, inertia: f64| {
+        let at = |b: &&sprag_design::answer::reengagement::BlowAt| {
+            b.friction == friction && b.inner_inertia_kg_m2 == inertia && b.path_m == 1e-4
+        };
+        answer.over.iter().find(at).unwrap().clone()
+    };
+    assert!(blow(0.11, 0.05).holds && blow(0.11, 0.05).blow.is_none());
+    let speed = |at: sprag_design::answer::reengagement::BlowAt| at.blow.unwrap().speed_rad_s;
+    assert!(speed(blow(0.04, 0.05)) > speed(blow(0.06, 0.05)));
+    assert!(speed(blow(0.06, 0.01)) > speed(blow(0.06, 0.05)));
+    let text = answer.text(Default::default());
+    assert!(text.contains("μ in slip") && text.contains("no slip"), "{text}");
+    let refused = design.reengagement(&ReengagementSettings { over_friction: vec![-0.1], ..asked });
+    assert!(refused.is_err());
+}
+
 /// The integral by the midpoint rule over the windup, which is another path through the curve than the one of the library.
 #[test]
 fn the_torque_by_energy_holds_that_energy() {

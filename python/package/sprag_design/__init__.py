@@ -17,6 +17,7 @@ import os
 from . import _core
 from ._answers import (
     Blow,
+    BlowAt,
     Capacity,
     Check,
     Curve,
@@ -61,6 +62,7 @@ __version__: str = _core.__version__
 
 __all__ = [
     "Blow",
+    "BlowAt",
     "Capacity",
     "Check",
     "Curve",

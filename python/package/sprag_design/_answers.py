@@ -1079,6 +1079,16 @@ class FilmOverrunLine:
     """Temperature of the outer race, C."""
     heat_balance_error: float | None
     """What the balance of heat leaves over, by the heat."""
+    warm_gap_mm: float | None
+    """Distance of the tracks at these temperatures, without load, mm; ``None``: expansion not known, as the four below."""
+    warm_first_tan_omega: float | None
+    """tan omega at first contact there."""
+    warm_joint_inner_mpa: float | None
+    """Pressure between inner race and shaft there, MPa; 0: no press fit."""
+    warm_joint_outer_mpa: float | None
+    """Pressure between outer race and housing there, MPa; 0: no press fit."""
+    warm_bears_nm: float | None
+    """Peak torque that every limit bears there, N m."""
     growth_rate_per_s: float | None
     """Growth of a small swing of the sprags, 1/s; positive: the equilibrium does not stay."""
     growth_by_friction_per_s: float | None
@@ -1190,6 +1200,26 @@ class Blow:
     """The energy over what the limits let the windup take up."""
 
 
+@dataclass(frozen=True)
+class BlowAt:
+    """A blow at another friction and inertia."""
+
+    friction: float
+    """Coefficient of friction while it slips."""
+    inertia_inner_kg_m2: float
+    """What turns with the inner race, that included, kg m^2."""
+    path_mm: float
+    """Path of slip, mm at the inner track."""
+    peak_torque_nm: float | None
+    """The blow, N m; ``None``: no slip, thrown out, or beyond the end of the curve, as the two below."""
+    times: float | None
+    """The blow over the torque carried."""
+    hertz_inner_mpa: float | None
+    """Largest Hertz pressure at the inner contact, MPa."""
+    verdict: str
+    """Whether it is borne, in words."""
+
+
 @dataclass(frozen=True, repr=False)
 class Reengagement(_Common):
     """Slip under load and the blow when the clutch grips again."""
@@ -1216,6 +1246,8 @@ class Reengagement(_Common):
     """The limit that sets it."""
     blows: tuple[Blow, ...]
     """Each path of slip with its blow."""
+    over: tuple[BlowAt, ...]
+    """Each friction and inertia that was asked for, at each path."""
     bears_j: float | None
     """Energy that the windup takes up from the torque carried to ``bears_nm``, J."""
     end_of_curve_j: float | None

@@ -331,12 +331,15 @@ class Design:
         outer_held: bool | None = None,
         friction: float | None = None,
         speed_rpm: float | None = None,
+        over_friction: Iterable[float] = (),
+        over_inertia_kg_m2: Iterable[float] = (),
     ) -> Reengagement:
         """Slip under load and the blow when the clutch grips again, for each path of slip at the inner track (mm, rising; left
         out: 0.1 to 30). ``torque_nm``: carried when the slip begins, left out the nominal torque of ``[limits]``; inertias:
         what turns with each race, the race included, left out the race alone; ``outer_held``: the outer race keeps its speed (left out: where the design names none of it)
         whatever acts on it; ``friction`` while it slips, left out 0.95 of
         what the torque needs; ``speed_rpm``: of both races, left out the largest at which a scenario of the design carries torque.
+        ``over_friction`` and ``over_inertia_kg_m2`` (of the inner race) make a table of blows over both, ``over``.
 
         Raises ``ValueError`` for what makes no sense, :class:`NoClutch` where the clutch cannot carry the torque.
         """
@@ -353,7 +356,9 @@ class Design:
             raise ValueError(f"speed_rpm {speed_rpm}: allowed: a finite number")
         paths = None if paths_mm is None else _positive("paths_mm", paths_mm)
         inertias = (inertia_inner_kg_m2, inertia_outer_kg_m2)
-        return plain_of(Reengagement, self._core.reengage(torque_nm, inertias, outer_held, friction, speed_rpm, paths))
+        over = (_positive("over_friction", over_friction), _positive("over_inertia_kg_m2", over_inertia_kg_m2))
+        found = self._core.reengage(torque_nm, inertias, outer_held, friction, speed_rpm, paths, *over)
+        return plain_of(Reengagement, found)
 
     def sharing(self, torque_nm: float | None = None) -> Sharing:
         """What each sprag carries where they are unlike, races bend, run out and give way: the table ``[sharing]`` of the file.

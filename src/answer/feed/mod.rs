@@ -184,7 +184,10 @@ impl Design {
             return refused(found, "0.001 to 10000 Hz, each above the one before");
         }
         if let Some(factor) = settings.springs.iter().find(|factor| !(1e-3..=1e3).contains(*factor)) {
-            return refused(format!("a spring of {} times that of the file", typed(*factor)), "0.001 to 1000 times");
+            return refused(
+                format!("a spring of {} times that of the file", typed(*factor)),
+                "0.001 to 1000 times",
+            );
         }
         let state = load_state(self).ok();
         let windup = |state: &crate::margin::LoadState| {
@@ -229,8 +232,7 @@ impl Design {
 impl FeedAnswer<'_> {
     /// Strokes of one frequency; `None`: stopped.
     fn stroke(&self, clutch: &Clutch, frequency_hz: f64, follow: &Follow) -> Result<Option<Fed>, NoFeed> {
-        let stroke =
-            fed(clutch, &Strokes { frequency_hz, ..self.case }, follow).map_err(NoFeed::NoStart)?;
+        let stroke = fed(clutch, &Strokes { frequency_hz, ..self.case }, follow).map_err(NoFeed::NoStart)?;
         Ok(Some(stroke).filter(|stroke| stroke.ended != Some(Stop::Interrupted)))
     }
 
@@ -248,12 +250,7 @@ impl FeedAnswer<'_> {
     }
 
     /// The same with a spring of `factor` times stiffness and drag torque, on the way up through `list`, Hz; `None`: stopped.
-    fn with_spring(
-        &self,
-        factor: f64,
-        list: &[f64],
-        follow: &Follow,
-    ) -> Result<Option<SpringFeed>, NoFeed> {
+    fn with_spring(&self, factor: f64, list: &[f64], follow: &Follow) -> Result<Option<SpringFeed>, NoFeed> {
         let mut clutch = self.design.clutch.clone();
         clutch.spring.stiffness_nm_per_rad *= factor;
         clutch.spring.drag_torque_nm *= factor;

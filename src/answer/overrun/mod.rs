@@ -3,10 +3,12 @@
 mod body;
 mod page;
 mod tables;
+mod warm;
 mod words;
 
 pub use body::{OverrunBody, SlipBody};
 pub use tables::OverrunPart;
+pub use warm::WarmClutch;
 
 use super::left_out::{LeftOut, left_out_of};
 use super::{Finding, Said};
@@ -65,6 +67,8 @@ pub struct OverrunLine {
     pub dry: OverrunPoint,
     /// Wear in an hour.
     pub wear: Option<HourlyWear>,
+    /// Fit and gap at the temperatures of the bodies there; `None`: without a film, or not known.
+    pub warm: Option<WarmClutch>,
 }
 
 /// The overrun of a design.
@@ -81,6 +85,8 @@ pub struct OverrunAnswer<'a> {
     asked: bool,
     /// Temperatures one after another, speeds in each.
     pub lines: Vec<OverrunLine>,
+    /// Fit and gap as the file has them.
+    pub filed: Option<WarmClutch>,
     /// Lift-off of the outer race, rad/s: it does not depend on friction, which ends with the force at A.
     pub lift_off_rad_s: Option<f64>,
     /// The slip that the file asks for.
@@ -179,7 +185,10 @@ impl Design {
         for &oil_c in &question.temperatures_c {
             let there = OilAt::new(self, oil_c);
             for &speed in &question.speeds_rad_s {
-                lines.push(there.line(&state, question.race, speed).map_err(NoOverrun::NoClutch)?);
+                let mut line = there.line(&state, question.race, speed).map_err(NoOverrun::NoClutch)?;
+                let heat = line.point.lubricated.map(|film| film.heat);
+                line.warm = heat.and_then(|heat| WarmClutch::at(self, &heat.temperatures));
+                lines.push(line);
             }
         }
         let slip = slip_effect(self, &state);
@@ -191,6 +200,7 @@ impl Design {
             named_rad_s: named,
             asked,
             lines,
+            filed: WarmClutch::of(self),
             lift_off_rad_s: lift_off,
             slip,
         })
@@ -219,7 +229,7 @@ impl OilAt {
         let at = |design: &Design| overrun_at(design, state, outer, speed_rad_s).map_err(NoMargins::Curve);
         let (point, dry) = (at(&self.wet)?, at(&self.dry)?);
         let wear = hourly_wear(&self.wet, &point);
-        Ok(OverrunLine { oil_c: self.oil_c, speed_rad_s, point, dry, wear })
+        Ok(OverrunLine { oil_c: self.oil_c, speed_rad_s, point, dry, wear, warm: None })
     }
 }
 
@@ -258,9 +268,10 @@ impl Said for OverrunAnswer<'_> {
     }
 
     fn tables(&self, screen: Screen) -> String {
-        [OverrunPart::Film, OverrunPart::Heat, OverrunPart::Swing]
-            .map(|part| self.part(part).to_text(screen))
-            .join("\n")
+        let warm = self.lines.iter().any(|l| l.warm.is_some()).then_some(OverrunPart::Warm);
+        let parts =
+            [OverrunPart::Film, OverrunPart::Heat].into_iter().chain(warm).chain([OverrunPart::Swing]);
+        parts.map(|part| self.part(part).to_text(screen)).collect::<Vec<_>>().join("\n")
     }
 
     fn body(&self) -> OverrunBody<'_> {

@@ -50,6 +50,12 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
         "Means of the bodies; the film is taken to be as warm as the mean of the two that rub.",
         &answer.part(OverrunPart::Heat),
     );
+    if answer.lines.iter().any(|l| l.warm.is_some()) {
+        page.heading("Fit and gap").table(
+            "At the temperatures above, without load, in place of those of the file; bears: peak torque that every limit bears.",
+            &answer.part(OverrunPart::Warm),
+        );
+    }
     page.heading("Swing and wear").table(
         "Growth of a small swing of the sprags on the film, by its friction alone, and dry by the law (12): above 0 the \
          overrun does not stay. Wear of a sprag grows with the power 2/3 of time.",

@@ -10,6 +10,8 @@ pub enum OverrunPart {
     Film,
     /// Heat and temperatures.
     Heat,
+    /// Fit and gap at these temperatures.
+    Warm,
     /// Growth of the swing, wear.
     Swing,
 }
@@ -55,6 +57,20 @@ fn with_heat(rows: Lines<'_>) -> Lines<'_> {
         .json("heat_balance_error", |l| l.point.lubricated.map(|f| f.heat.balance_error()))
 }
 
+fn with_warm(rows: Lines<'_>) -> Lines<'_> {
+    rows.number("warm_gap_mm", "Gap", Unit::Millimetre, 6, |l| l.warm.map(|w| w.gap_m))
+        .number("warm_first_tan_omega", "tan ω, first contact", Unit::One, 4, |l| {
+            l.warm.map(|w| w.first_tan_omega)
+        })
+        .number("warm_joint_inner_mpa", "Fit on the shaft", Unit::Megapascal, 3, |l| {
+            l.warm.map(|w| w.joint_pa[0])
+        })
+        .number("warm_joint_outer_mpa", "Fit in the housing", Unit::Megapascal, 3, |l| {
+            l.warm.map(|w| w.joint_pa[1])
+        })
+        .number("warm_bears_nm", "Bears", Unit::NewtonMetre, 4, |l| l.warm.and_then(|w| w.bears_nm))
+}
+
 fn with_swing(rows: Lines<'_>) -> Lines<'_> {
     rows.number("growth_rate_per_s", "Growth on film", Unit::PerSecond, 3, |l| {
         l.point.swing.map(|s| s.growth_rate_per_s)
@@ -84,6 +100,7 @@ impl OverrunAnswer<'_> {
         let with = match part {
             OverrunPart::Film => with_film,
             OverrunPart::Heat => with_heat,
+            OverrunPart::Warm => with_warm,
             OverrunPart::Swing => with_swing,
         };
         // Oil and speed say what a row is.
@@ -92,6 +109,6 @@ impl OverrunAnswer<'_> {
 
     /// All of it.
     pub fn all(&self) -> Rows<&OverrunLine> {
-        with_swing(with_heat(with_film(self.oil_and_speed())))
+        with_swing(with_warm(with_heat(with_film(self.oil_and_speed()))))
     }
 }

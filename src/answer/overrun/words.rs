@@ -201,6 +201,19 @@ impl OverrunAnswer<'_> {
             ),
             None => "The sprags do not lift off".to_owned(),
         });
+        let warm = self.lines.iter().any(|l| l.warm.is_some());
+        let heated = self.lines.iter().any(|l| l.point.lubricated.is_some());
+        all.extend(self.filed.filter(|_| heated).map(|filed| match warm {
+            true => format!(
+                "As the file has it, the gap is {}, tan ω {} at first contact{}",
+                Unit::Millimetre.show(filed.gap_m, 6),
+                significant(filed.first_tan_omega, 4),
+                filed.bears_nm.map_or(String::new(), |nm| format!(", borne are {}", Unit::NewtonMetre.show(nm, 4)))
+            ),
+            false => "Fit and gap at these temperatures: not known; they need expansion_um_per_m_k in [material], or the name of a \
+                      steel, and a clutch that is one when warm"
+                .to_owned(),
+        }));
         if let Some(s) = &self.slip {
             all.push(format!(
                 "A slip of {} at {} under {}: μ {}, flash {} above the bodies; wears {} off each sprag, {} off the race under it",

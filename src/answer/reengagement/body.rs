@@ -1,6 +1,6 @@
 //! The answer of `reengage` by its keys in JSON, and its table.
 
-use super::{BorneSlip, ReengagementAnswer};
+use super::{BlowAt, BorneSlip, ReengagementAnswer};
 use crate::answer::Said;
 use crate::dynamics::Stop;
 use crate::reengage::{Blow, SlipEnd};
@@ -56,6 +56,8 @@ pub struct ReengagementBody<'a> {
     pub lift_off_rpm: Option<f64>,
     /// Friction that is needed where the clutch does not slip.
     pub needs_friction: Option<f64>,
+    /// Each blow over friction and inertia, a row of [`ReengagementAnswer::blows_over`].
+    pub over: Rows<&'a BlowAt>,
     /// Whether the outer race keeps its speed whatever acts on it.
     pub outer_held: bool,
     /// Why the slip came to an end before the longest path.
@@ -108,6 +110,7 @@ impl<'a> ReengagementBody<'a> {
             bears_nm: bears.map(|b| b.0),
             bears_by: bears.map(|b| b.1.as_str()),
             blows: answer.blows(),
+            over: answer.blows_over(),
             bears_j: answer.takes_up_j.map(|j| j[0]),
             end_of_curve_j: answer.takes_up_j.map(|j| j[1]),
             torque_needs_friction: Some(found.needs).filter(|mu| mu.is_finite()),
@@ -122,15 +125,40 @@ impl<'a> ReengagementBody<'a> {
 }
 
 impl ReengagementAnswer<'_> {
-    /// Each path of slip with its blow.
-    pub fn blows(&self) -> Rows<&Blow> {
-        let word = |b: &Blow| match (self.bears_it(b), b.ended) {
+    fn word(&self, b: &Blow) -> &'static str {
+        match (self.bears_it(b), b.ended) {
             (true, _) => "held",
             (false, None) => "NOT HELD",
             (false, Some(Stop::FellAway)) => "THROWN OUT",
             (false, Some(Stop::CurveEnd)) => "OVERLOADED",
             (false, Some(_)) => "NO GRIP",
-        };
+        }
+    }
+
+    /// Blows over friction and inertia.
+    pub fn blows_over(&self) -> Rows<&BlowAt> {
+        let peak = |b: &BlowAt| b.blow.as_ref().and_then(|blow| blow.peak);
+        Rows::of(&self.over)
+            .number("friction", "μ in slip", Unit::One, 4, |b| b.friction)
+            .number("inertia_inner_kg_m2", "Inner inertia, kg m²", Unit::One, 4, |b| b.inner_inertia_kg_m2)
+            .number("path_mm", "Slip", Unit::Millimetre, 3, |b| b.path_m)
+            .number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4, move |b| peak(b).map(|p| p.torque_nm))
+            .number("times", "Times", Unit::One, 3, move |b| {
+                peak(b).map(|p| p.torque_nm / self.case.torque_nm)
+            })
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, move |b| {
+                peak(b).map(|p| p.hertz_inner_pa)
+            })
+            .text("verdict", "Verdict", |b| match &b.blow {
+                Some(blow) => Cell::Verdict(self.bears_it(blow), self.word(blow).to_owned()),
+                None if b.holds => Cell::Verdict(true, "no slip".to_owned()),
+                None => Cell::Verdict(false, "THROWN OUT".to_owned()),
+            })
+    }
+
+    /// Each path of slip with its blow.
+    pub fn blows(&self) -> Rows<&Blow> {
+        let word = |b: &Blow| self.word(b);
         Rows::of(&self.found.list)
             .number("path_mm", "Slip", Unit::Millimetre, 3, |b| b.path_m)
             .number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4, |b| b.peak.map(|p| p.torque_nm))

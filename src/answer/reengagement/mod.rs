@@ -5,6 +5,7 @@ mod page;
 mod words;
 
 pub use body::{BorneBody, ReengagementBody, ThrownBody};
+use rayon::prelude::*;
 
 use super::check::{Capacity, overrun::outer_turns};
 use super::left_out::{LeftOut, left_out_of};
@@ -34,6 +35,11 @@ pub struct ReengagementSettings {
     pub speed_rad_s: Option<f64>,
     /// Paths of slip at the inner track, m.
     pub paths_m: Vec<f64>,
+    /// Frictions of a table over friction and inertia; none: [`Self::friction`].
+    pub over_friction: Vec<f64>,
+    /// What turns with the inner race, this included, in that table, kg m^2; none: that of [`Self::inertia_kg_m2`]. Without either list there
+    /// is no table.
+    pub over_inner_inertia_kg_m2: Vec<f64>,
     /// Followed and stopped by.
     pub follow: Follow,
 }
@@ -47,6 +53,8 @@ impl Default for ReengagementSettings {
             friction: None,
             speed_rad_s: None,
             paths_m: vec![1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2],
+            over_friction: Vec::new(),
+            over_inner_inertia_kg_m2: Vec::new(),
             follow: Follow::nobody(),
         }
     }
@@ -71,6 +79,9 @@ const HALVINGS: usize = 10;
 /// Share of the friction needed that is the largest tried: nearer to it a slip begins too slowly to be followed.
 const NEAREST: f64 = 0.999;
 
+/// Rows of the table over friction and inertia on a terminal.
+const MOST_ROWS: usize = 60;
+
 /// Columns for people: the blow; and the way to it.
 const BLOW: &[&str] =
     &["path_mm", "peak_torque_nm", "verdict", "times", "peak_by_energy_nm", "energy_j", "of_borne"];
@@ -90,12 +101,31 @@ pub struct ReengagementAnswer<'a> {
     pub takes_up_j: Option<[f64; 2]>,
     /// What would be borne, where a blow is not.
     pub borne: Option<BorneSlip>,
+    /// Blows over friction and inertia, each at every path; empty where no such table was asked for.
+    pub over: Vec<BlowAt>,
+    /// How many cases it was asked for.
+    over_asked: usize,
     /// The scenario whose speed was taken; `None`: the speed was given, or the design names none.
     pub speed_of: Option<&'a str>,
     /// Speed of the outer race, rad/s, at which the sprags lift off in overrun; `None`: they do not.
     pub lift_off_rad_s: Option<f64>,
     /// Whether the inertia of the outer race was given.
     outer_given: bool,
+}
+
+/// A blow at another friction and inertia.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlowAt {
+    /// Friction while it slips.
+    pub friction: f64,
+    /// What turns with the inner race, this included, kg m^2.
+    pub inner_inertia_kg_m2: f64,
+    /// The blow; `None`: this friction holds the torque, or the sprags are out of reach before the path is walked.
+    pub blow: Option<Blow>,
+    /// Path of slip, m.
+    pub path_m: f64,
+    /// Why there is no blow: whether the friction holds the torque.
+    pub holds: bool,
 }
 
 /// Why there is none.
@@ -176,6 +206,12 @@ impl Design {
         } else if case.paths_m.is_empty() || !rising || !case.paths_m.iter().copied().all(positive) {
             return Err(NoReengagement::Refused("paths of slip above 0, each longer than the one before"));
         }
+        let over = [&settings.over_friction, &settings.over_inner_inertia_kg_m2];
+        if !over[0].iter().all(|mu| mu.is_finite() && *mu >= 0.0) || !over[1].iter().copied().all(positive) {
+            return Err(NoReengagement::Refused(
+                "frictions of 0 or more and inertias above 0 in the table over both",
+            ));
+        }
         let state = load_state(self).ok();
         if settings.friction.is_none() {
             let at_torque = state.as_ref().and_then(|state| state.curve.at_torque(case.torque_nm));
@@ -199,12 +235,17 @@ impl Design {
             bears,
             takes_up_j,
             borne: None,
+            over: Vec::new(),
+            over_asked: 0,
             speed_of,
             lift_off_rad_s,
             outer_given: settings.inertia_kg_m2[1].is_some(),
         };
         if !answer.is_held() && !settings.follow.stopped() {
             answer.borne = answer.borne(&settings.follow).map_err(NoReengagement::NoStart)?;
+        }
+        if over.iter().any(|list| !list.is_empty()) {
+            answer.table_over(over, &settings.follow).map_err(NoReengagement::NoStart)?;
         }
         Ok(answer)
     }
@@ -214,6 +255,37 @@ impl ReengagementAnswer<'_> {
     fn bears_it(&self, blow: &Blow) -> bool {
         let most_nm = self.bears.as_ref().map_or(f64::INFINITY, |(torque_nm, _)| *torque_nm);
         blow.peak.is_some_and(|p| p.torque_nm <= most_nm)
+    }
+
+    /// Fill the table over frictions and inertias; cases that were stopped are left out.
+    fn table_over(
+        &mut self,
+        [frictions, inertias]: [&Vec<f64>; 2],
+        follow: &Follow,
+    ) -> Result<(), NoElement> {
+        let or_own = |list: &Vec<f64>, own: f64| if list.is_empty() { vec![own] } else { list.clone() };
+        let inertias = or_own(inertias, self.case.inertia_kg_m2[0]);
+        let cases: Vec<[f64; 2]> = or_own(frictions, self.case.friction)
+            .into_iter()
+            .flat_map(|friction| inertias.iter().map(move |&inertia| [friction, inertia]))
+            .collect();
+        self.over_asked = cases.len();
+        let one = |&[friction, inner_inertia_kg_m2]: &[f64; 2]| -> Result<Vec<BlowAt>, NoElement> {
+            let inertia_kg_m2 = [inner_inertia_kg_m2, self.case.inertia_kg_m2[1]];
+            let case = SlipUnderLoad { friction, inertia_kg_m2, ..self.case.clone() };
+            let found = blows(&self.design.clutch, &case, follow)?;
+            if follow.stopped() {
+                return Ok(Vec::new());
+            }
+            let at = |(k, path_m): (usize, &f64)| {
+                let blow = found.list.get(k).cloned();
+                BlowAt { friction, inner_inertia_kg_m2, blow, path_m: *path_m, holds: found.holds.is_some() }
+            };
+            Ok(self.case.paths_m.iter().enumerate().map(at).collect())
+        };
+        let rows: Vec<Vec<BlowAt>> = cases.par_iter().map(one).collect::<Result<_, _>>()?;
+        self.over = rows.concat();
+        Ok(())
     }
 
     /// Whether a slip of `path_m` at `friction` is borne; `None`: stopped.
@@ -322,6 +394,7 @@ impl Said for ReengagementAnswer<'_> {
         match ends.last() {
             Some(Stop::Interrupted) => Finding::Stopped,
             Some(stop) if stop.gave_up() => Finding::NotKnown,
+            _ if self.over.len() < self.over_asked * self.case.paths_m.len() => Finding::Stopped,
             _ => Finding::of(found.ended.is_none() && found.list.iter().all(|blow| self.bears_it(blow))),
         }
     }
@@ -342,7 +415,13 @@ impl Said for ReengagementAnswer<'_> {
         if self.found.list.is_empty() {
             return String::new();
         }
-        [BLOW, WAY].map(|keys| self.table().only(keys).to_text(screen)).join("\n")
+        let text = [BLOW, WAY].map(|keys| self.table().only(keys).to_text(screen)).join("\n");
+        if self.over.is_empty() {
+            return text;
+        }
+        let (rows, more) = self.blows_over().table().first(MOST_ROWS);
+        let rest = if more > 0 { format!("{more} more: --json or --report\n") } else { String::new() };
+        format!("{text}\n{}{rest}", rows.to_text(screen))
     }
 
     fn body(&self) -> ReengagementBody<'_> {

@@ -4,7 +4,7 @@ use super::{BLOW, ReengagementAnswer, WAY};
 use crate::answer::Said;
 use crate::reengage::Blow;
 use crate::report::plot::{Curve, Dash};
-use crate::report::{Page, Plot};
+use crate::report::{Page, Plot, Unit, significant};
 
 pub(super) fn draw(answer: &ReengagementAnswer<'_>, page: &mut Page) {
     let points = |of: &dyn Fn(&Blow) -> Option<f64>| -> Vec<[f64; 2]> {
@@ -24,7 +24,7 @@ pub(super) fn draw(answer: &ReengagementAnswer<'_>, page: &mut Page) {
     let by_energy = points(&|b| b.by_energy_nm);
     let is_empty = blow_is_empty && by_energy.is_empty();
     if !by_energy.is_empty() {
-        // Often beside the blow itanswer.
+        // Often beside the blow itself.
         plot.curves.push(Curve { dash: Dash::Dashed, ..Curve::new("by energy, nothing lost", by_energy) });
     }
     if let Some((most_nm, code)) = &answer.bears {
@@ -47,6 +47,30 @@ pub(super) fn draw(answer: &ReengagementAnswer<'_>, page: &mut Page) {
         }
         page.table("The blow after each path of slip.", &answer.table().only(BLOW));
         page.table("The way to it.", &answer.table().only(WAY));
+    }
+    if !answer.over.is_empty() {
+        page.heading("Over friction and inertia");
+        let longest_m = answer.case.paths_m.last().copied().unwrap_or(0.0);
+        let mut plot = Plot::new("Friction while it slips", "Blow, Nm");
+        let mut inertias: Vec<f64> = answer.over.iter().map(|b| b.inner_inertia_kg_m2).collect();
+        inertias.sort_by(f64::total_cmp);
+        inertias.dedup();
+        for inertia in inertias {
+            let of = answer.over.iter().filter(|b| b.inner_inertia_kg_m2 == inertia && b.path_m == longest_m);
+            let points: Vec<[f64; 2]> =
+                of.filter_map(|b| Some([b.friction, b.blow.as_ref()?.peak?.torque_nm])).collect();
+            if points.len() > 1 {
+                plot.curves.push(Curve::new(&format!("{} kg m²", significant(inertia, 3)), points));
+            }
+        }
+        if !plot.curves.is_empty() {
+            page.figure(
+                &plot.to_figure(),
+                &format!("Blow after the longest path, {}; where a curve ends, it is beyond the end of the curve of torque.",
+                    Unit::Millimetre.show(longest_m, 3)),
+            );
+        }
+        page.table("Each friction, inertia and path of slip.", &answer.blows_over().table());
     }
 }
 
