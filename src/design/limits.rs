@@ -128,6 +128,8 @@ limits! {
         "Allowed Hertz pressure at nominal torque, MPa.";
     hertz_peak_mpa: "exclusiveMinimum" 0, "MPa" -> hertz_peak_pa by pa, AT_PEAK,
         "Allowed Hertz pressure at peak torque, MPa.";
+    along_mpa: "exclusiveMinimum" 0, "MPa" -> along_pa by pa, AT_PEAK,
+        "Allowed pressure anywhere along the contacts at peak torque, with end profile and tilt, MPa; needs an end_profile.";
     hoop_inner_mpa: "exclusiveMinimum" 0, "MPa" -> hoop_inner_pa by pa, AT_PEAK,
         "Allowed magnitude of the inner race's mean hoop stress at peak torque, MPa.";
     hoop_outer_mpa: "exclusiveMinimum" 0, "MPa" -> hoop_outer_pa by pa, AT_PEAK,

@@ -46,7 +46,7 @@ objectives! {
     SlipMargin: "slip-margin", "", "least slip margin", 1.0, "slip margin", 1.0;
     /// The peak torque, with the nominal torque in proportion, up to which every static limit holds is maximised.
     TorqueCapacity: "torque-capacity", "Nm", "torque capacity", 1.0, "of torque capacity", 1.0;
-    /// The largest Hertz pressure at peak torque is minimised.
+    /// The largest Hertz pressure at peak torque is minimised; with along_mpa among the limits that along the contacts.
     PeakPressure: "peak-pressure", "MPa",
         "largest Hertz pressure at peak torque", -1.0, "less pressure", 1000.0;
     /// The windup at nominal torque is minimised.

@@ -4,7 +4,7 @@
 //! single keys ([`super::design_file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
 //! at first contact is asked of `profile`.
 
-use super::contact_file::ContactFile;
+use super::contact_file::{ContactFile, EndKindFile};
 use super::design_file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
 use super::{axial, eccentricity, geometry, lubrication_file, running, steels};
@@ -161,6 +161,19 @@ pub(super) fn body_yield(file: &DesignFile, out: &mut Findings) {
             "only together with flanks, or a width_mm above 0: without them the body has no narrowest section"
                 .to_owned(),
             "add flanks = { rear_mm = ..., front_mm = ... } to [sprags], or remove the limit".to_owned(),
+        );
+    }
+}
+
+/// Pressure along a contact is finite where its ends are shaped.
+pub(super) fn along(file: &DesignFile, out: &mut Findings) {
+    let key = ["limits.along_mpa", "optimize.limits.along_mpa"].into_iter().find(|k| out.has(k));
+    let shaped = file.contact.end_profile.as_ref().is_some_and(|p| p.kind != EndKindFile::Square);
+    if let (Some(key), false) = (key, shaped) {
+        out.refuse(
+            &[key, "contact.end_profile"],
+            "only together with an end_profile: at a square end the pressure has no bound".to_owned(),
+            "add end_profile = { kind = \"crown\", radius_mm = 1000.0 } to [contact], or another kind, or remove the limit".to_owned(),
         );
     }
 }

@@ -238,6 +238,7 @@ fn assembled(
     let clutch = check::clutch(&file, out);
     let limits = check::limits(&file.limits, Limits::default(), out);
     check::body_yield(&file, out);
+    check::along(&file, out);
     check::film(&file, out);
     check::tolerances(&file, clutch.as_ref(), out);
     check::gaps(&file.limits, &file.races, out);

@@ -154,6 +154,11 @@ impl Limit {
         (self.name)(&Limits::default())
     }
 
+    /// Whether it is the pressure along a contact.
+    pub fn is_along(&self) -> bool {
+        self.key == Some("along_mpa")
+    }
+
     /// Whether demand and allowable are coefficients of friction: the grip of a contact.
     pub fn is_grip(&self) -> bool {
         self.code.starts_with("grip-")

@@ -6,6 +6,7 @@
 mod body;
 mod capacity;
 mod hoop;
+mod lengthwise;
 mod limits;
 mod load;
 mod overrun;

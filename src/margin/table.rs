@@ -2,13 +2,14 @@
 
 use super::body::body_stress_pa;
 use super::hoop::{Which, hoop_pa};
+use super::lengthwise::{Reach, largest_pa};
 use super::limits::{Limit, Of, When};
 use super::load::LoadCase;
 use super::row::Rule;
 use super::sprag::grip;
 use super::subsurface::{case_m, core_allowed, inner, outer, shear_below};
 use crate::design::{Design, Limits};
-use crate::wedge::StaticPoint;
+use crate::wedge::{Side, StaticPoint};
 
 const PRESSURE: Limit = Limit {
     code: "",
@@ -35,6 +36,18 @@ const UNLIKE_PRESSURE: Limit = Limit {
     formula: "p_0 of each sprag k with its own N_k and radii; sum of its torques = torque, forces on both races in balance",
     source: "this project: sprags one by one; Johnson (4.45)",
     of: Of::UnlikePressure,
+    ..PRESSURE
+};
+
+const ALONG: Limit = Limit {
+    key: Some("along_mpa"),
+    when: When::Peak,
+    explanation: "Largest pressure along a contact, by slices with end profile and tilt, in its middle half or in the quarters beside it: a \
+                  profile that drops more unloads the ends and presses the middle. An end that still bears is sharp: its value \
+                  is that of its last slice, and grows with contact.slices.",
+    formula: "slices: [S_w]{q} = delta - gap, p_j = sqrt(q_j n E*/(pi R l)), R the one that p_0 = sqrt(N E*/(pi R l)) of the state has",
+    source: "Huang 2017, (1)-(4), with end profile; Huang and others 2018 for the aim",
+    of: Of::clutch(|_, l| l.along_pa, |c, p| largest_pa(c, p, Side::Inner, Reach::Middle)),
     ..PRESSURE
 };
 
@@ -346,6 +359,29 @@ pub static LIMITS: &[&Limit] = &[
             |c, p| hoop_pa(c, p, Which::Outer, true),
         ),
         ..BENDING
+    },
+    &Limit {
+        code: "along-middle-inner",
+        name: |_| "pressure along the inner contact, its middle half, peak torque",
+        ..ALONG
+    },
+    &Limit {
+        code: "along-ends-inner",
+        name: |_| "pressure along the inner contact, towards its ends, peak torque",
+        of: Of::clutch(|_, l| l.along_pa, |c, p| largest_pa(c, p, Side::Inner, Reach::Ends)),
+        ..ALONG
+    },
+    &Limit {
+        code: "along-middle-outer",
+        name: |_| "pressure along the outer contact, its middle half, peak torque",
+        of: Of::clutch(|_, l| l.along_pa, |c, p| largest_pa(c, p, Side::Outer, Reach::Middle)),
+        ..ALONG
+    },
+    &Limit {
+        code: "along-ends-outer",
+        name: |_| "pressure along the outer contact, towards its ends, peak torque",
+        of: Of::clutch(|_, l| l.along_pa, |c, p| largest_pa(c, p, Side::Outer, Reach::Ends)),
+        ..ALONG
     },
     &Limit {
         code: "body-yield",

@@ -50,6 +50,9 @@ pub(super) fn capacity_of(row: &Margin) -> String {
     format!("capacity:{}", row.code())
 }
 
+/// Pressure of a contact whose slices find none, MPa.
+const NOT_KNOWN_MPA: f64 = 1e5;
+
 /// Measures of `objective`; their count depends on the question alone, not on the clutch.
 pub(super) fn measures(
     objective: Objective,
@@ -99,9 +102,15 @@ pub(super) fn measures(
             let torque = limits.peak_torque_nm.unwrap_or(1.0);
             let (point, beyond) = at(state, torque);
             // Pressure grows with the root of the load; beyond the curve's end that goes on.
-            [("inner", point.0), ("outer", point.1)]
-                .map(|(place, p)| measure(format!("pressure:{place}"), -p * 1e-6 * beyond.sqrt()))
-                .to_vec()
+            let even = [("inner", point.0), ("outer", point.1)]
+                .map(|(place, p)| measure(format!("pressure:{place}"), -p * 1e-6 * beyond.sqrt()));
+            // Where the file limits the pressure along the contacts, that is what is pressed; not known: worse than any that is.
+            let along = rows.iter().filter(|m| m.limit.is_along());
+            let along = along.map(|m| {
+                let mpa = m.demand_in_unit().map_or(NOT_KNOWN_MPA, |mpa| mpa * beyond.sqrt());
+                measure(format!("pressure:{}", m.code()), -mpa)
+            });
+            even.into_iter().chain(along).collect()
         }
         Objective::Windup => {
             let torque = limits.nominal_torque_nm.unwrap_or(1.0);

@@ -64,24 +64,12 @@ pub fn along(
     normal_n: f64,
     how: Lengthwise,
 ) -> Result<Along, ContactError> {
-    let fit = fit(clutch, contact, side)?;
-    let (cut, slices) = (fit.cut(contact), clutch.axial.slices);
     match how {
-        Lengthwise::Slices => {
-            let law = SliceContact::with_compliance(cut, compliance(clutch, contact)?, slices)?;
-            let s = law.solve_along(normal_n, &fit)?;
-            Ok(Along {
-                y_m: s.y_m,
-                load_n: s.load_n,
-                pressure_pa: s.pressure_pa,
-                edges: s.edges,
-                peak: s.peak,
-                converged: !matches!(s.status, SliceStatus::NoConvergence { .. }),
-            })
-        }
+        Lengthwise::Slices => along_drawn(clutch, contact, contact, side, normal_n),
         #[cfg(feature = "validation")]
         Lengthwise::Reference | Lengthwise::FreeEnds => {
-            let grid = HalfSpaceLine::new(cut, ACROSS, 2 * slices);
+            let fit = fit(clutch, contact, side)?;
+            let grid = HalfSpaceLine::new(fit.cut(contact), ACROSS, 2 * clutch.axial.slices);
             let m = &clutch.materials;
             let race = if side == Side::Inner { m.inner_race } else { m.outer_race };
             let free = how == Lengthwise::FreeEnds;
@@ -97,6 +85,31 @@ pub fn along(
             })
         }
     }
+}
+
+/// The same by slices on `contact`, with the end profile that is made for `drawn`.
+///
+/// # Errors
+/// As [`along`].
+pub fn along_drawn(
+    clutch: &Clutch,
+    drawn: &LineContact,
+    contact: &LineContact,
+    side: Side,
+    normal_n: f64,
+) -> Result<Along, ContactError> {
+    let fit = fit(clutch, drawn, side)?;
+    let law =
+        SliceContact::with_compliance(fit.cut(contact), compliance(clutch, contact)?, clutch.axial.slices)?;
+    let s = law.solve_along(normal_n, &fit)?;
+    Ok(Along {
+        y_m: s.y_m,
+        load_n: s.load_n,
+        pressure_pa: s.pressure_pa,
+        edges: s.edges,
+        peak: s.peak,
+        converged: !matches!(s.status, SliceStatus::NoConvergence { .. }),
+    })
 }
 
 /// By how much (relative) slices under a rigid approach come nearer than the even load that the other laws spread along

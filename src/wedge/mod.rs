@@ -29,7 +29,7 @@ mod table;
 pub use crate::contact::{Edge, Peak};
 pub use apart::{Borne, SpragDeviation};
 pub use at_speeds::AtSpeeds;
-pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error};
+pub use axial::{Along, Lengthwise, Side, along, along_drawn, asks_for_slices, even_load_error};
 pub use axis_turns::{AxisTurn, AxisTurns};
 pub use build::Effort;
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};

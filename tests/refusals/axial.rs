@@ -24,6 +24,7 @@ fn axial_arrangement() {
         ("end_profile = { kind = \"table\", points = [ { y_mm = -2.0, drop_um = 1.0 }, { y_mm = 3.0, drop_um = 0.0 } ] }", "end_profile.points", "points = [", &["-3 to 3 mm"]),
         ("end_profile = { kind = \"table\", points = [ { y_mm = -2.0, drop_um = 1.0 } ] }", "end_profile.points", "points = [", &["at least"]),
     ];
+    hold(&[Case(&[("[limits]", "[limits]\nalong_mpa = 5000.0")], "limits.along_mpa", "along_mpa = 5000.0", &["end_profile", "square end"])]);
     for (line, key, shown, help) in cases {
         let with = format!("law = \"roller\"\n{line}");
         let key = format!("contact.{key}");

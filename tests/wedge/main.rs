@@ -10,6 +10,7 @@ mod first_contact;
 mod gap;
 mod half_space;
 mod junctions;
+mod lengthwise;
 mod patch_contact;
 mod roll_over;
 mod slice_cost;
