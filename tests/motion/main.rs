@@ -20,6 +20,7 @@ mod outside;
 mod overrun_stability;
 mod periodic;
 mod quick;
+mod ramp;
 mod scenes;
 mod stability;
 mod stand_by;

@@ -1,7 +1,8 @@
 //! Overrun on a film: oils by ASTM D341, Moes' film and its shear against a numerical solution, heat, flash, wear, and what stays as it was.
 
 use crate::program::*;
-use sprag_design::answer::overrun::{OverrunPart, OverrunQuestion, RunningRace};
+use sprag_design::answer::Answer;
+use sprag_design::answer::overrun::{OverrunPart, OverrunQuestion, RunningRace, WarmClutch};
 use sprag_design::dynamics::{alpha_max_rad, overrun, swing, swing_on_film, swing_with_friction};
 use sprag_design::friction::FilmFriction;
 use sprag_design::lubrication::*;
