@@ -15,7 +15,12 @@ const CARRIED_NM: f64 = 20.0;
 /// The drive from rest with the acceleration of `net_nm` on all of it, the clutch carrying 20 Nm in the mean.
 fn run_up(net_nm: f64, duration_s: f64) -> Design {
     let text = std::fs::read_to_string(FILE).unwrap();
-    let clutch = text.split("[limits]").next().unwrap();
+    // Without the spring, which presses as much as 0.017 Nm more would.
+    let clutch = text
+        .split("\n[limits]")
+        .next()
+        .unwrap()
+        .replace("stiffness_nm_per_rad = 0.01 ", "stiffness_nm_per_rad = 1e-6 ");
     // Half of what accelerates goes through the clutch.
     let [engine_nm, load_nm] = [CARRIED_NM + 0.5 * net_nm, 0.5 * net_nm - CARRIED_NM];
     let train = |name: &str, to: &str, torque_nm: f64, orders: &str| {
@@ -85,8 +90,8 @@ fn a_run_up_meets_its_resonance_late_and_low() {
         met.push([torque - CARRIED_NM, at_hz, expected, expected_hz, steady]);
     }
     for [found, at_hz, expected, expected_hz, steady] in &met {
-        assert!((found / expected - 1.0).abs() < 0.05, "{met:?}");
-        assert!((at_hz / expected_hz - 1.0).abs() < 0.03, "{met:?}");
+        assert!((found / expected - 1.0).abs() < 0.01, "{met:?}");
+        assert!((at_hz / expected_hz - 1.0).abs() < 2e-3, "{met:?}");
         assert!(found < steady, "{met:?}");
     }
     for pair in met.windows(2) {

@@ -10,8 +10,9 @@ const FILE: &str = "designs/huang2017-multi-arc.toml";
 
 fn crowned(radius_mm: f64, more: &[(&str, &str)]) -> Design {
     let text = std::fs::read_to_string(FILE).unwrap();
-    let profile = format!("[contact]\nend_profile = {{ kind = \"crown\", radius_mm = {radius_mm:?} }}");
-    let mut text = text.replace("[contact]", &profile).replace("[limits]", "[limits]\nalong_mpa = 6000.0");
+    let profile = format!("\n[contact]\nend_profile = {{ kind = \"crown\", radius_mm = {radius_mm:?} }}");
+    let mut text =
+        text.replace("\n[contact]", &profile).replace("\n[limits]", "\n[limits]\nalong_mpa = 6000.0");
     for (from, to) in more {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
