@@ -173,7 +173,7 @@ pub(super) fn along(file: &DesignFile, out: &mut Findings) {
         out.refuse(
             &[key, "contact.end_profile"],
             "only together with an end_profile: at a square end the pressure has no bound".to_owned(),
-            "add end_profile = { kind = \"crown\", radius_mm = 1000.0 } to [contact], or another kind, or remove the limit".to_owned(),
+            "add end_profile = { kind = \"crown\", radius_mm = 300.0 } to [contact], or another kind, or remove the limit".to_owned(),
         );
     }
 }

@@ -33,7 +33,7 @@ fn pressed(design: &Design) -> [f64; 3] {
 fn a_crown_presses_the_middle_and_a_straight_sprag_its_ends() {
     let [middle, ends, even] = pressed(&crowned(1e7, &[]));
     assert!((middle / even - 1.0).abs() < 0.05 && ends > 1.2 * even, "{middle} {ends} {even}");
-    let crowns = [3000.0, 1000.0, 500.0, 300.0].map(|radius_mm| pressed(&crowned(radius_mm, &[])));
+    let crowns = [3000.0, 1000.0, 500.0, 150.0].map(|radius_mm| pressed(&crowned(radius_mm, &[])));
     for pair in crowns.windows(2) {
         assert!(pair[1][0] > pair[0][0] && pair[1][1] < pair[0][1], "{crowns:?}");
     }
@@ -65,7 +65,7 @@ fn a_crown_presses_the_middle_and_a_straight_sprag_its_ends() {
 /// `optimize` finds the crown at which both are pressed alike, which is neither end of the range.
 #[test]
 fn a_search_finds_the_crown_between_pressed_ends_and_pressed_middle() {
-    let task = "[optimize]\nobjective = \"peak-pressure\"\nscenarios = []\nvariables = [ { name = \"crown_radius_mm\", min = 300.0, max = 5000.0 } ]\n";
+    let task = "[optimize]\nobjective = \"peak-pressure\"\nscenarios = [\"low-10\"]\nseed = 1\nvariables = [ { name = \"crown_radius_mm\", min = 100.0, max = 5000.0 } ]\n";
     let text = crowned(3000.0, &[]).source.clone();
     let before = text.split("[optimize]").next().unwrap();
     let after = text.split("[optimize]").nth(1).unwrap();
@@ -75,7 +75,7 @@ fn a_search_finds_the_crown_between_pressed_ends_and_pressed_middle() {
     let found =
         search(&design, &method, Fidelity::default(), &Desk::new(&Follow::nobody(), &mut Forgetful)).unwrap();
     let radius = found.variables[0].best;
-    assert!(radius > 310.0 && radius < 4900.0, "{radius}");
+    assert!(radius > 110.0 && radius < 4900.0, "{radius}");
     let new = Design::parse(&found.file, FILE).unwrap();
     let [middle, ends, _] = pressed(&new);
     assert!((middle / ends - 1.0).abs() < 2e-3, "{radius}: {middle} {ends}");

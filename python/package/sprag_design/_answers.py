@@ -1084,9 +1084,9 @@ class FilmOverrunLine:
     warm_first_tan_omega: float | None
     """tan omega at first contact there."""
     warm_joint_inner_mpa: float | None
-    """Pressure between inner race and shaft there, MPa; 0: no press fit."""
+    """Pressure between inner race and shaft there, MPa; ``None``: no press fit, or a loose one."""
     warm_joint_outer_mpa: float | None
-    """Pressure between outer race and housing there, MPa; 0: no press fit."""
+    """Pressure between outer race and housing there, MPa; ``None``: no press fit, or a loose one."""
     warm_bears_nm: float | None
     """Peak torque that every limit bears there, N m."""
     growth_rate_per_s: float | None

@@ -284,7 +284,7 @@ impl Said for OverrunAnswer<'_> {
     }
 
     fn left_out(&self) -> Vec<LeftOut> {
-        words::left_out().into_iter().chain(left_out_of(self.design)).collect()
+        words::left_out(self).into_iter().chain(left_out_of(self.design)).collect()
     }
 
     fn draw(&self, page: &mut Page) {

@@ -16,6 +16,9 @@ pub enum OverrunPart {
     Swing,
 }
 
+/// Columns of [`OverrunPart::Warm`] where no race is pressed onto anything.
+const UNFITTED: &[&str] = &["oil_c", "speed_rpm", "warm_gap_mm", "warm_first_tan_omega", "warm_bears_nm"];
+
 type Lines<'a> = Rows<&'a OverrunLine>;
 
 fn with_film(rows: Lines<'_>) -> Lines<'_> {
@@ -63,10 +66,10 @@ fn with_warm(rows: Lines<'_>) -> Lines<'_> {
             l.warm.map(|w| w.first_tan_omega)
         })
         .number("warm_joint_inner_mpa", "Fit on the shaft", Unit::Megapascal, 3, |l| {
-            l.warm.map(|w| w.joint_pa[0])
+            l.warm.map(|w| w.joint_pa[0]).filter(|pa| *pa != 0.0)
         })
         .number("warm_joint_outer_mpa", "Fit in the housing", Unit::Megapascal, 3, |l| {
-            l.warm.map(|w| w.joint_pa[1])
+            l.warm.map(|w| w.joint_pa[1]).filter(|pa| *pa != 0.0)
         })
         .number("warm_bears_nm", "Bears", Unit::NewtonMetre, 4, |l| l.warm.and_then(|w| w.bears_nm))
 }
@@ -104,7 +107,12 @@ impl OverrunAnswer<'_> {
             OverrunPart::Swing => with_swing,
         };
         // Oil and speed say what a row is.
-        Table { lead: 2, ..with(self.oil_and_speed()).table() }
+        let table = Table { lead: 2, ..with(self.oil_and_speed()).table() };
+        let fitted = |l: &OverrunLine| l.warm.is_some_and(|w| w.joint_pa != [0.0; 2]);
+        match part == OverrunPart::Warm && !self.lines.iter().any(fitted) {
+            true => table.only(UNFITTED),
+            false => table,
+        }
     }
 
     /// All of it.

@@ -6,9 +6,10 @@ use crate::lubrication::Film;
 use crate::report::{Unit, significant};
 
 /// What overrun on a film leaves out.
-pub(super) fn left_out() -> Vec<LeftOut> {
+pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
     let new = LeftOut::new;
     vec![
+        riding_inside(answer),
         new(
             "starvation",
             "inlets are full of oil",
@@ -30,6 +31,44 @@ pub(super) fn left_out() -> Vec<LeftOut> {
             "the film must be squeezed out first: some microseconds to a millisecond more of slip",
         ),
     ]
+}
+
+/// Sprags that ride with the inner race and slide on the outer one. All normal forces and the centrifugal force go through the axis,
+/// so that T_A OA = T_B OB: sliding at B with mu, a sprag is carried along at A where T_A/N_A = mu OB/OA N_B/N_A is no more than the static
+/// friction, with N_B = N_A to a percent.
+fn riding_inside(answer: &OverrunAnswer<'_>) -> LeftOut {
+    let clutch = &answer.design.clutch;
+    let times = clutch.races.outer_radius_m / clutch.races.inner_radius_m;
+    let frictions =
+        answer.lines.iter().filter(|l| l.point.state.normal_inner_n > 0.0).map(|l| l.point.friction);
+    let least = frictions.fold(f64::INFINITY, f64::min);
+    let (needs, there) = (times * least, clutch.friction.static_);
+    let cost = match (least.is_finite(), needs <= there) {
+        (false, _) => "none: no speed at which they touch".to_owned(),
+        (true, true) => format!(
+            "possible: sliding outside at the least μ above, {}, they need {} inside, and {} is there; which race they follow is then \
+             left to how the overrun began, and the centrifugal force is that of the inner race's speed",
+            significant(least, 3),
+            significant(needs, 3),
+            significant(there, 3)
+        ),
+        (true, false) => format!(
+            "none: sliding outside at the least μ above, {}, they would need {} inside, and {} is there",
+            significant(least, 3),
+            significant(needs, 3),
+            significant(there, 3)
+        ),
+    };
+    LeftOut::new(
+        "sprags that ride with the inner race",
+        &format!(
+            "all ride with the outer race, which asks of B 1/{} of the friction that A slides with; to ride with the inner one, A is asked for \
+             {} times that of a sliding B",
+            significant(times, 3),
+            significant(times, 3)
+        ),
+        &cost,
+    )
 }
 
 /// Part of the contact's relative radius up to which a film is thin, and the contact a parabola.
