@@ -25,6 +25,14 @@ pub(super) fn drawn_words(sharing: &Sharing) -> Vec<String> {
             given.join(", ")
         ));
     }
+    all.extend(sharing.tracks.iter().map(|track| {
+        format!(
+            "{} track out of round as made: {} lobes of {}",
+            if track.outer { "Outer" } else { "Inner" },
+            track.lobes,
+            Unit::Micrometre.show(track.amplitude_m, 3)
+        )
+    }));
     all.push(match sharing.start {
         Standing::Sprung => {
             "When torque begins, each sprag's spring has turned it until it touches both races".to_owned()

@@ -21,7 +21,7 @@ pub use lubrication::{Lubrication, SlipCase};
 pub use question::{Phrase, Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
 pub use service::{FatigueStrength, PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, Service};
-pub use sharing::{GivenSprag, Sharing, Standing};
+pub use sharing::{GivenSprag, Sharing, Standing, TrackWave};
 pub use tolerances::Tolerances;
 
 use crate::material::Material;

@@ -27,6 +27,28 @@ pub struct Sharing {
     pub mass_kg: Option<f64>,
     /// Sprags by number, in place of what is drawn.
     pub given: Vec<GivenSprag>,
+    /// Tracks that are not round as made.
+    pub tracks: Vec<TrackWave>,
+}
+
+/// A wave of a track's radius as made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrackWave {
+    /// Whether it is the outer track, else the inner one.
+    pub outer: bool,
+    /// Lobes round the circumference, 2: oval.
+    pub lobes: usize,
+    /// Amplitude of the radius, m, not negative.
+    pub amplitude_m: f64,
+    /// Azimuth of a lobe, rad: of the outer track from sprag 0, of the inner one from the widest gap.
+    pub azimuth_rad: f64,
+}
+
+impl TrackWave {
+    /// How much the radius is larger at `azimuth_rad`, m.
+    pub fn larger_m(&self, azimuth_rad: f64) -> f64 {
+        self.amplitude_m * (self.lobes as f64 * (azimuth_rad - self.azimuth_rad)).cos()
+    }
 }
 
 /// How sprags stand when torque begins.

@@ -5,7 +5,7 @@
 
 use super::design_file::DesignFile;
 use super::findings::Findings;
-use crate::clutch::{Clutch, GivenSprag, Sharing, Standing};
+use crate::clutch::{Clutch, GivenSprag, Sharing, Standing, TrackWave};
 use crate::design::m;
 use crate::profile::{Outline, least_pitch_rad};
 use schemars::JsonSchema;
@@ -50,6 +50,34 @@ pub(super) struct SharingFile {
     /// Sprags of which something is known.
     #[serde(default)]
     pub sprags: Vec<GivenSpragFile>,
+    /// Tracks that are not round as made, a wave each; not in scenes.
+    #[serde(default)]
+    pub tracks: Vec<TrackWaveFile>,
+}
+
+/// A wave of a track's radius as made.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TrackWaveFile {
+    /// The race.
+    pub race: TrackFile,
+    /// Lobes round the circumference, 2: oval.
+    #[schemars(extend("minimum" = 2, "maximum" = 1000))]
+    pub lobes: usize,
+    /// Amplitude of the radius, um: half of what two-point measurement finds of an even number of lobes.
+    #[schemars(extend("minimum" = 0, "maximum" = 1000))]
+    pub amplitude_um: f64,
+    /// Azimuth of a lobe, deg: of the outer race from sprag 1, with which it stays, of the inner race from the widest gap.
+    #[serde(default)]
+    pub azimuth_deg: f64,
+}
+
+/// Which race.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum TrackFile {
+    Inner,
+    Outer,
 }
 
 fn first() -> u64 {
@@ -182,5 +210,15 @@ pub(super) fn si(
         stiffness_n_per_m: sharing.bearing_stiffness_n_per_um.map(|k| 1e6 * k),
         mass_kg: sharing.bearing_mass_kg,
         given: sharing.sprags.iter().map(one).collect(),
+        tracks: sharing
+            .tracks
+            .iter()
+            .map(|t| TrackWave {
+                outer: t.race == TrackFile::Outer,
+                lobes: t.lobes,
+                amplitude_m: um(t.amplitude_um),
+                azimuth_rad: t.azimuth_deg.to_radians(),
+            })
+            .collect(),
     }
 }

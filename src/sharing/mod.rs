@@ -37,7 +37,7 @@ pub use newton::{Asked, NotShared};
 pub use pops::{PopPoint, Pops};
 pub use turn::Turn;
 
-use crate::clutch::{Carrier, Clutch, Sharing, Standing};
+use crate::clutch::{Carrier, Clutch, Sharing, Standing, TrackWave};
 use crate::race::RingInfluence;
 use crate::wedge::{FIRST_CONTACT_N, SpragDeviation, Statics, WedgeCurve};
 use std::f64::consts::TAU;
@@ -61,6 +61,8 @@ pub struct Unlike<'a> {
     carrier: Carrier,
     /// Radial stiffness, N/m; infinite: held.
     pub stiffness_n_per_m: f64,
+    /// Tracks out of round as made.
+    tracks: Vec<TrackWave>,
     /// r_i, rad.
     start_rad: Vec<f64>,
     /// Turn of the race with the offset against each sprag at its touch, rad.
@@ -230,6 +232,7 @@ impl<'a> Unlike<'a> {
                 .stiffness_n_per_m
                 .or(eccentricity.map(|e| e.stiffness_n_per_m))
                 .unwrap_or(f64::INFINITY),
+            tracks: sharing.tracks.clone(),
             start_rad: vec![0.0; n],
             turned_rad: vec![0.0; n],
             bending,
@@ -260,20 +263,16 @@ impl<'a> Unlike<'a> {
             self.idle[i] = Some(Idle::Missing);
             return;
         }
-        let axis_m = self.axis_m(0.0);
+        let (axis_m, made_m) = (self.axis_m(0.0), self.made_m(i, 0.0));
         let mut statics = self.curve.statics().clone();
         if start == Standing::Sprung && self.offset_m > 0.0 {
             let there = rotated(axis_m, -sprag.azimuth_rad);
             self.turned_rad[i] = statics.touch_turn_rad(there, self.carrier).unwrap_or(0.0);
         }
         let mut touch = |size_m: f64, off: bool| {
-            let offset_m = if off { self.offset_at(i, axis_m) } else { [0.0; 2] };
-            statics.set_apart(SpragDeviation {
-                size_m,
-                offset_m,
-                carrier: self.carrier,
-                ..SpragDeviation::default()
-            });
+            let (offset_m, [inner_m, outer_m]) =
+                if off { (self.offset_at(i, axis_m), made_m) } else { ([0.0; 2], [0.0; 2]) };
+            statics.set_apart(SpragDeviation { size_m, inner_m, outer_m, offset_m, carrier: self.carrier });
             statics.borne(FIRST_CONTACT_N)
         };
         let own = touch(sprag.size_m, true);
@@ -302,6 +301,21 @@ impl<'a> Unlike<'a> {
         if self.idle[i].is_none() {
             self.lag_rad[i] = Some(own.rolled.v - stands_at);
         }
+    }
+
+    /// How much inner and outer track recede from the gap at sprag `i` as they are made, m, when the widest gap has turned on by
+    /// `turned_rad`. The outer track stays with the sprags, the inner one with the widest gap; what they walk on their tracks meanwhile is
+    /// small beside a lobe.
+    fn made_m(&self, i: usize, turned_rad: f64) -> [f64; 2] {
+        let at_rad = self.sprags[i].azimuth_rad;
+        let mut recede_m = [0.0; 2];
+        for wave in &self.tracks {
+            match wave.outer {
+                true => recede_m[1] += wave.larger_m(at_rad),
+                false => recede_m[0] -= wave.larger_m(at_rad - self.phase_rad - turned_rad),
+            }
+        }
+        recede_m
     }
 
     /// Axis of the inner race against that of the outer, m, in the frame of sprag 0, when the widest gap has turned on by

@@ -305,7 +305,9 @@ impl Unlike<'_> {
         }
         let given = self.given_way(&t.shared.loads);
         for i in self.able() {
-            let ([inner_m, outer_m], along_rad) = given[i];
+            let (bent_m, along_rad) = given[i];
+            let made_m = self.made_m(i, turned_rad);
+            let [inner_m, outer_m] = [bent_m[0] + made_m[0], bent_m[1] + made_m[1]];
             let offset_m = self.offset_at(i, axis_m);
             let size_m = self.sprags[i].size_m;
             statics[i].set_apart(SpragDeviation {
@@ -331,7 +333,7 @@ impl Unlike<'_> {
             t.opens[i] = [omega.cos() / lever, nu.cos() / lever];
             let stands_rad = self.sprags[i].azimuth_rad + self.turned_rad[i] - c.carried_rad;
             t.shifts[i] = rotated([-nu.cos() / lever, nu.sin() / lever], stands_rad);
-            load.bent_m = [inner_m, outer_m];
+            load.bent_m = bent_m;
             load.turn_rad = b.turn_rad;
             if load.own_rad <= 0.0 {
                 continue;

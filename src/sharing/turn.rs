@@ -10,7 +10,8 @@ const PLACES: usize = 12;
 /// Halvings that locate an end of the torque.
 const HALVINGS: usize = 24;
 
-/// An unlike clutch with its widest gap at every place of a turn; one place where the axes meet.
+/// An unlike clutch with its widest gap, or the first azimuth of an inner track out of round, at every place of a turn; one place where
+/// neither is.
 #[derive(Debug, Clone)]
 pub struct Turn<'a> {
     /// The clutch as it engaged, and how far the widest gap has turned on since, rad. A clutch that turns against the offset
@@ -22,10 +23,13 @@ impl<'a> Turn<'a> {
     /// The clutch whose curve at rest is `curve`.
     pub fn new(clutch: &Clutch, sharing: &Sharing, curve: &'a WedgeCurve) -> Self {
         let first = Unlike::new(clutch, sharing, curve, 0.0);
-        let count = if first.offset_m > 0.0 { PLACES } else { 1 };
+        let lobed = sharing.tracks.iter().any(|track| !track.outer);
+        let count = if first.offset_m > 0.0 || lobed { PLACES } else { 1 };
+        // Lobes pass the sprags: each place meets them at another part of a pitch.
+        let step = if lobed { 1.0 + 1.0 / clutch.sprags.count as f64 } else { 1.0 };
         let turns_on = clutch.races.eccentricity.is_some_and(|e| e.turning);
         let place = |k: usize| {
-            let phase = TAU * k as f64 / count as f64;
+            let phase = TAU * k as f64 / count as f64 * step;
             if turns_on || k == 0 {
                 (first.clone(), phase)
             } else {

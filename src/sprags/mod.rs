@@ -46,6 +46,11 @@ pub enum NoEachSprag {
     /// The mean speed changes, and each sprag has a curve of its own.
     #[error("sprags one by one need a constant mean speed: leave its history out of the scenario")]
     SpeedCourse,
+    /// Tracks are out of round as made.
+    #[error(
+        "tracks out of round as made are looked at at rest alone: leave [[sharing.tracks]] out for a scene"
+    )]
+    TracksAsMade,
     /// The scene has a drivetrain.
     #[error("sprags one by one move no drivetrain: give the scenario drivetrain = []")]
     Drivetrain,
@@ -166,6 +171,9 @@ impl Many {
         }
         if !scenario.drivetrain.is_empty() {
             return Err(NoEachSprag::Drivetrain);
+        }
+        if !sharing.tracks.is_empty() {
+            return Err(NoEachSprag::TracksAsMade);
         }
         let alike = prepare(scenario).map_err(NoEachSprag::NoScenario)?;
         let clutch = &scenario.clutch;

@@ -1,12 +1,13 @@
 //! Sprags one by one: alike they are the curve, unlike they are what a hand calculation says.
 
 use sprag_design::answer::Answer;
-use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, Sharing, Standing};
+use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, Sharing, Standing, TrackWave};
 use sprag_design::race::Race;
 use sprag_design::wedge::SpragDeviation;
 
-use sprag_design::sharing::{Asked, Shared, Unlike};
+use sprag_design::sharing::{Asked, Shared, Turn, Unlike};
 use sprag_design::{Clutch, Design, Material, WedgeCurve};
+use std::f64::consts::TAU;
 
 fn clutch(file: &str) -> Clutch {
     let path = format!("{}/designs/{file}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -49,6 +50,65 @@ fn sprags_alike_between_concentric_races_are_the_curve() {
     }
     println!("worst {worst:.1e}");
     assert!(worst < 1e-10, "{worst:e}");
+}
+
+/// Tracks out of round as made. As many lobes as sprags: a track of another radius. An oval under a cage: sprags of other sizes. The inner
+/// lobes pass the sprags in a turn, the outer ones stay. None of it in a scene.
+#[test]
+fn tracks_out_of_round_as_made() {
+    let clutch = clutch("huang2017-multi-arc");
+    let curve_at_rest = curve(&clutch);
+    let n = clutch.sprags.count;
+    let wave = |outer: bool, lobes: usize, amplitude_m: f64, azimuth_rad: f64| TrackWave {
+        outer,
+        lobes,
+        amplitude_m,
+        azimuth_rad,
+    };
+    let with = |tracks: Vec<TrackWave>, start: Standing| Sharing { tracks, start, ..Sharing::default() };
+    let alike = at(&clutch, &Sharing::default(), &curve_at_rest, 60.0).loads[0].normal_inner_n;
+    for (outer, amplitude_m) in [(false, 1e-5), (true, 1e-5)] {
+        let lobed = with(vec![wave(outer, n, amplitude_m, 0.0)], Standing::Sprung);
+        let shared = at(&clutch, &lobed, &curve_at_rest, 60.0);
+        let mut other = clutch.clone();
+        *[&mut other.races.inner_radius_m, &mut other.races.outer_radius_m][usize::from(outer)] +=
+            amplitude_m;
+        let expected = curve(&other).at_torque(60.0).unwrap().normal_inner_n;
+        for load in &shared.loads {
+            let off = (load.normal_inner_n - expected) / (expected - alike);
+            assert!(off.abs() < 0.1, "{outer} {} {expected} {alike}", load.normal_inner_n);
+        }
+    }
+    let oval = with(vec![wave(true, 2, 2e-6, 0.3)], Standing::Caged);
+    let given = (0..n).map(|index| GivenSprag {
+        index,
+        size_m: Some(-wave(true, 2, 2e-6, 0.3).larger_m(TAU * index as f64 / n as f64)),
+        ..GivenSprag::default()
+    });
+    let sizes = Sharing { given: given.collect(), start: Standing::Caged, ..Sharing::default() };
+    let [oval, sizes] = [&oval, &sizes].map(|sharing| at(&clutch, sharing, &curve_at_rest, 60.0).shares());
+    let uneven = oval.iter().fold(0.0, |m: f64, s| m.max((s - 1.0).abs()));
+    assert!(uneven > 5e-3, "{oval:?}");
+    for (a, b) in oval.iter().zip(&sizes) {
+        assert!((a - b).abs() < 0.03 * uneven, "{oval:?} {sizes:?}");
+    }
+    let places = |outer: bool| {
+        let sharing = with(vec![wave(outer, 3, 2e-6, 0.0)], Standing::Caged);
+        let turn = Turn::new(&clutch, &sharing, &curve_at_rest);
+        turn.at(60.0).unwrap().iter().map(|s| s.shares()[0]).collect::<Vec<_>>()
+    };
+    let (inner, outer) = (places(false), places(true));
+    assert!(outer.len() == 1 && inner.len() == 12);
+    assert!(inner.iter().any(|s| *s > 1.002) && inner.iter().any(|s| *s < 0.998), "{inner:?}");
+    let design = "tracks = [ { race = \"outer\", lobes = 2, amplitude_um = 5.0 } ]";
+    let path = format!("{}/designs/unlike-sprags.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path)
+        .unwrap()
+        .replace("friction_within = 0.01", &format!("{design}\nfriction_within = 0.01"));
+    let design = Design::parse(&text, &path).unwrap();
+    assert!(design.sharing(None).unwrap().text(Default::default()).contains("2 lobes of 5.00 µm"));
+    let why = design.sharing_in_scene("engagement", &Default::default()).unwrap_err().to_string();
+    assert!(why.contains("sharing.tracks"), "{why}");
 }
 
 /// Two sprags, one of which lacks 20 um of size at the start: on rings so stiff that they do not bend, both see one windup, the second

@@ -76,11 +76,13 @@ impl SharingAnswer<'_> {
                 race.iter().enumerate().skip(1).take(clutch.sprags.count.saturating_sub(2).max(1) / 2);
             below.map(|(k, a)| (k + 1) as f64 * a / radius).fold(0.0, f64::max)
         });
-        let slope = slope.fold(0.0, f64::max);
+        let as_made = self.design.sharing.iter().flat_map(|sharing| &sharing.tracks);
+        let as_made = as_made.map(|t| t.lobes as f64 * t.amplitude_m / tracks[usize::from(t.outer)]);
+        let slope = slope.chain(as_made).fold(0.0, f64::max);
         vec![
             LeftOut::new(
                 "slope of a bent track in the wedge angle",
-                "a track that bends is taken to recede and to give along itself, not to lean",
+                "a track that bends or is out of round is taken to recede and to give along itself, not to lean",
                 &if tan > 0.0 {
                     format!("up to {} of tan ω of a sprag", Unit::Percent.show(slope / tan, 2))
                 } else {
