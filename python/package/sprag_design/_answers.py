@@ -596,8 +596,8 @@ class Simulation(_Common):
     lift_off_rpm: float | None
     """Speed of the outer race at which the sprags lift off, rev/min; absent where they stay on up to 60 000."""
     growth_rate_per_s: float | None
-    """Growth of a small swing of the sprags about a steady overrun, races at constant speeds, 1/s; positive: the overrun does
-    not stay. Absent where they are off."""
+    """Growth of a small swing of the sprags about a steady overrun, races at constant speeds, 1/s; positive: the overrun
+    does not stay. Absent where they are off."""
     swing_frequency_hz: float | None
     """Frequency of that swing, Hz."""
     swing_normal_inner_n: float | None
