@@ -64,11 +64,12 @@ pub(super) fn draw(answer: &ReengagementAnswer<'_>, page: &mut Page) {
             }
         }
         if !plot.curves.is_empty() {
-            page.figure(
-                &plot.to_figure(),
-                &format!("Blow after the longest path, {}; where a curve ends, it is beyond the end of the curve of torque.",
-                    Unit::Millimetre.show(longest_m, 3)),
+            let words = format!(
+                "Blow after the longest path, {}; a curve ends where sprags are thrown out, where the blow is beyond what the \
+                 clutch carries, and where nothing slips.",
+                Unit::Millimetre.show(longest_m, 3)
             );
+            page.figure(&plot.to_figure(), &words);
         }
         page.table("Each friction, inertia and path of slip.", &answer.blows_over().table());
     }
