@@ -160,8 +160,13 @@ fn every_limit_searched_under_is_written() {
             _ => &limits,
         };
         let oil = if key.starts_with("film_") { OIL } else { "[friction]\n" };
-        let design =
-            changed(HUANG, &[("limits = { keep_contact_to_rpm = 6000 }", limits), ("[friction]\n", oil)]);
+        // Pressure along a contact has a bound where its ends are shaped.
+        let contact = match key {
+            "along_mpa" => "\n[contact]\nend_profile = { kind = \"crown\", radius_mm = 300.0 }\n",
+            _ => "\n[contact]\n",
+        };
+        let limits = ("limits = { keep_contact_to_rpm = 6000 }", limits);
+        let design = changed(HUANG, &[limits, ("[friction]\n", oil), ("\n[contact]\n", contact)]);
         let x: Vec<f64> = task(&design).variables.iter().map(|v| v.start).collect();
         let file = super::clutch::problem(&design).finished_file(&x).unwrap();
         let written: toml::Table = toml::from_str(&file).unwrap();
