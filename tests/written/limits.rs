@@ -10,7 +10,7 @@ use sprag_design::optimise::{ClutchProblem, Fidelity};
 use sprag_design::{Design, Settings};
 use toml::{Table, Value};
 
-/// A design with everything that limits speak of: flanks, an eccentricity, oil, sprags that differ, a scene; without limits.
+/// A design with everything that limits speak of: flanks, an end profile, an eccentricity, oil, sprags that differ, a scene; without limits.
 fn bare() -> Table {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/huang2017-multi-arc.toml");
     let mut file: Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
@@ -27,6 +27,9 @@ fn bare() -> Table {
     let mut races = table(&mut file, "races");
     races.insert("eccentricity".into(), toml::toml! { offset_mm = 0.005 }.into());
     file.insert("races".into(), races.into());
+    let mut contact = table(&mut file, "contact");
+    contact.insert("end_profile".into(), toml::toml! { kind = "crown" radius_mm = 300.0 }.into());
+    file.insert("contact".into(), contact.into());
     let oil = toml::toml! { oil = "ISO VG 32" temperature_c = 60.0 race_roughness_um = 0.2 sprag_roughness_um = 0.2 };
     file.insert("lubrication".into(), oil.into());
     file.insert("sharing".into(), toml::toml! { seed = 1 size_within_um = 1.0 }.into());
