@@ -165,13 +165,18 @@ pub(super) fn body_yield(file: &DesignFile, out: &mut Findings) {
     }
 }
 
+/// Where the file gives the limit `name`: in `[limits]`, else in `[optimize]`.
+fn limit_key(name: &str, out: &Findings) -> Option<String> {
+    ["limits", "optimize.limits"].map(|table| format!("{table}.{name}")).into_iter().find(|key| out.has(key))
+}
+
 /// Pressure along a contact is finite where its ends are shaped.
 pub(super) fn along(file: &DesignFile, out: &mut Findings) {
-    let key = ["limits.along_mpa", "optimize.limits.along_mpa"].into_iter().find(|k| out.has(k));
+    let key = limit_key("along_mpa", out);
     let shaped = file.contact.end_profile.as_ref().is_some_and(|p| p.kind != EndKindFile::Square);
     if let (Some(key), false) = (key, shaped) {
         out.refuse(
-            &[key, "contact.end_profile"],
+            &[&key, "contact.end_profile"],
             "only together with an end_profile: at a square end the pressure has no bound".to_owned(),
             "add end_profile = { kind = \"crown\", radius_mm = 300.0 } to [contact], or another kind, or remove the limit".to_owned(),
         );
@@ -180,10 +185,10 @@ pub(super) fn along(file: &DesignFile, out: &mut Findings) {
 
 /// A film needs an oil.
 pub(super) fn film(file: &DesignFile, out: &mut Findings) {
-    let key = ["limits.film_lambda", "optimize.limits.film_lambda"].into_iter().find(|k| out.has(k));
+    let key = limit_key("film_lambda", out);
     if let (Some(key), None) = (key, &file.lubrication) {
         out.refuse(
-            &[key],
+            &[&key],
             "only together with [lubrication]: without an oil there is no film".to_owned(),
             "add [lubrication] with oil, temperature_c, race_roughness_um and sprag_roughness_um, or remove the limit"
                 .to_owned(),

@@ -201,17 +201,15 @@ pub(super) fn climb_all(
     };
     // What the others are for is to find further optima: the design comes first, while points for them are looked for.
     let mut drawn = 0;
-    let ((), first) = rayon::join(
+    let ((), mut points) = rayon::join(
         || climb(&mut named, &mut found),
         || from_box.draw(desk, problem, (lo, hi), wanted_of(0), method),
     );
-    let mut ahead = Some(first);
     loop {
         let wanted = wanted_of(drawn);
         if desk.stopped() || wanted == 0 {
             break;
         }
-        let points = ahead.take().unwrap_or_else(|| from_box.draw(desk, problem, (lo, hi), wanted, method));
         let none_left = points.is_empty();
         let name = |i: usize| format!("point {}", drawn + i + 1);
         named.extend(points.into_iter().enumerate().map(|(i, (x, e))| (name(i), x, Some(e))));
@@ -221,6 +219,7 @@ pub(super) fn climb_all(
         if optima.enough() || drawn + 1 >= method.most_starts || none_left || desk.stopped() {
             break;
         }
+        points = from_box.draw(desk, problem, (lo, hi), wanted_of(drawn), method);
     }
     // Before the best of them is finished: all have ended alike.
     let optima = Optima::of(&found.starts, tolerance);

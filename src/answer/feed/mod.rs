@@ -217,10 +217,7 @@ impl Design {
             let Some(stroke) = found.stroke(&self.clutch, frequency_hz, follow)? else { return Ok(found) };
             found.list.push(stroke);
         }
-        match found.limit(&self.clutch, &found.list, follow)? {
-            Some(limit_hz) => found.limit_hz = limit_hz,
-            None => return Ok(found),
-        }
+        found.limit_hz = found.limit(&self.clutch, &found.list, follow)?;
         for &factor in &settings.springs {
             let Some(spring) = found.with_spring(factor, list, follow)? else { return Ok(found) };
             found.springs.push(spring);
@@ -236,17 +233,18 @@ impl FeedAnswer<'_> {
         Ok(Some(stroke).filter(|stroke| stroke.ended != Some(Stop::Interrupted)))
     }
 
-    /// The frequency at which strokes first cease to feed as they should, Hz, where that lies between two of `list`; `None`: stopped.
-    fn limit(&self, clutch: &Clutch, list: &[Fed], follow: &Follow) -> Result<Option<Option<f64>>, NoFeed> {
+    /// The frequency at which strokes first cease to feed as they should, Hz, where that lies between two of `list` and nobody stops the
+    /// search for it.
+    fn limit(&self, clutch: &Clutch, list: &[Fed], follow: &Follow) -> Result<Option<f64>, NoFeed> {
         let lost = list.iter().position(|fed| !self.feeds(fed));
-        let Some(k) = lost.filter(|k| *k > 0) else { return Ok(Some(None)) };
+        let Some(k) = lost.filter(|k| *k > 0) else { return Ok(None) };
         let (mut held_hz, mut lost_hz) = (list[k - 1].frequency_hz, list[k].frequency_hz);
         for _ in 0..HALVINGS {
             let middle_hz = (held_hz * lost_hz).sqrt();
             let Some(stroke) = self.stroke(clutch, middle_hz, follow)? else { return Ok(None) };
             if self.feeds(&stroke) { held_hz = middle_hz } else { lost_hz = middle_hz }
         }
-        Ok(Some(Some(held_hz)))
+        Ok(Some(held_hz))
     }
 
     /// The same with a spring of `factor` times stiffness and drag torque, on the way up through `list`, Hz; `None`: stopped.
@@ -258,15 +256,14 @@ impl FeedAnswer<'_> {
         let mut up = Vec::new();
         for &frequency_hz in list {
             let Some(stroke) = self.stroke(&clutch, frequency_hz, follow)? else { return Ok(None) };
-            let held = self.feeds(&stroke);
             up.push(stroke);
-            if !held {
+            if up.last().is_some_and(|stroke| !self.feeds(stroke)) {
                 break;
             }
         }
-        let limit = self.limit(&clutch, &up, follow)?;
+        let limit_hz = self.limit(&clutch, &up, follow)?;
         let lost = up.pop().filter(|stroke| !self.feeds(stroke));
-        Ok(limit.map(|limit_hz| SpringFeed { factor, drag_torque_nm, limit_hz, lost }))
+        Ok((!follow.stopped()).then_some(SpringFeed { factor, drag_torque_nm, limit_hz, lost }))
     }
 
     /// Feed of a stroke less that of slow ones, rad.

@@ -86,7 +86,7 @@ pub struct OverrunAnswer<'a> {
     /// Temperatures one after another, speeds in each.
     pub lines: Vec<OverrunLine>,
     /// Fit and gap as the file has them.
-    pub filed: Option<WarmClutch>,
+    pub filed: WarmClutch,
     /// Lift-off of the outer race, rad/s: it does not depend on friction, which ends with the force at A.
     pub lift_off_rad_s: Option<f64>,
     /// The slip that the file asks for.
@@ -195,12 +195,12 @@ impl Design {
         Ok(OverrunAnswer {
             design: self,
             lubrication,
+            filed: WarmClutch::of(self, &state),
             state,
             question,
             named_rad_s: named,
             asked,
             lines,
-            filed: WarmClutch::of(self),
             lift_off_rad_s: lift_off,
             slip,
         })
@@ -230,6 +230,13 @@ impl OilAt {
         let (point, dry) = (at(&self.wet)?, at(&self.dry)?);
         let wear = hourly_wear(&self.wet, &point);
         Ok(OverrunLine { oil_c: self.oil_c, speed_rad_s, point, dry, wear, warm: None })
+    }
+}
+
+impl OverrunAnswer<'_> {
+    /// Whether fit and gap are known at any line.
+    fn knows_warm(&self) -> bool {
+        self.lines.iter().any(|l| l.warm.is_some())
     }
 }
 
@@ -268,7 +275,7 @@ impl Said for OverrunAnswer<'_> {
     }
 
     fn tables(&self, screen: Screen) -> String {
-        let warm = self.lines.iter().any(|l| l.warm.is_some()).then_some(OverrunPart::Warm);
+        let warm = self.knows_warm().then_some(OverrunPart::Warm);
         let parts =
             [OverrunPart::Film, OverrunPart::Heat].into_iter().chain(warm).chain([OverrunPart::Swing]);
         parts.map(|part| self.part(part).to_text(screen)).collect::<Vec<_>>().join("\n")

@@ -50,7 +50,7 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
         "Means of the bodies; the film is taken to be as warm as the mean of the two that rub.",
         &answer.part(OverrunPart::Heat),
     );
-    if answer.lines.iter().any(|l| l.warm.is_some()) {
+    if answer.knows_warm() {
         page.heading("Fit and gap").table(
             "At the temperatures above, without load, in place of those of the file; bears: peak torque that every limit bears.",
             &answer.part(OverrunPart::Warm),

@@ -3,7 +3,7 @@
 use crate::answer::reengagement::peak_torque_borne;
 use crate::design::Design;
 use crate::lubrication::Temperatures;
-use crate::margin::load_state;
+use crate::margin::{LoadState, load_state};
 
 /// A clutch at some temperatures of its bodies, without load.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,20 +19,19 @@ pub struct WarmClutch {
 }
 
 impl WarmClutch {
-    /// `design` at the temperatures of its own file.
-    pub fn of(design: &Design) -> Option<Self> {
-        let state = load_state(design).ok()?;
+    /// `design`, whose state is `state`, at the temperatures of its own file.
+    pub fn of(design: &Design, state: &LoadState) -> Self {
         let races = &design.clutch.races;
         let joint_pa = design
             .clutch
             .running
             .map_or([0.0; 2], |running| [running.inner, running.outer].map(|track| track.joint_pressure_pa));
-        Some(Self {
+        Self {
             gap_m: races.outer_radius_m - races.inner_radius_m,
             first_tan_omega: state.first_tan_omega,
             joint_pa,
-            bears_nm: peak_torque_borne(design, &state).map(|(torque_nm, _)| torque_nm),
-        })
+            bears_nm: peak_torque_borne(design, state).map(|(torque_nm, _)| torque_nm),
+        }
     }
 
     /// `design` at `bodies`, in place of those of its `[thermal]`; `None`: its steels have no expansion, or warm as that it is no clutch.
@@ -42,6 +41,8 @@ impl WarmClutch {
             ("thermal.sprags_c", bodies.sprags),
             ("thermal.outer_race_c", bodies.outer_race),
         ];
-        Self::of(&design.with_values(&values).ok()?)
+        let warm = design.with_values(&values).ok()?;
+        let state = load_state(&warm).ok()?;
+        Some(Self::of(&warm, &state))
     }
 }

@@ -240,9 +240,8 @@ impl OverrunAnswer<'_> {
             ),
             None => "The sprags do not lift off".to_owned(),
         });
-        let warm = self.lines.iter().any(|l| l.warm.is_some());
-        let heated = self.lines.iter().any(|l| l.point.lubricated.is_some());
-        all.extend(self.filed.filter(|_| heated).map(|filed| match warm {
+        let (filed, heated) = (&self.filed, self.lines.iter().any(|l| l.point.lubricated.is_some()));
+        all.extend(heated.then(|| match self.knows_warm() {
             true => format!(
                 "As the file has it, the gap is {}, tan ω {} at first contact{}",
                 Unit::Millimetre.show(filed.gap_m, 6),

@@ -5,7 +5,6 @@ mod page;
 mod words;
 
 pub use body::{BorneBody, ReengagementBody, ThrownBody};
-use rayon::prelude::*;
 
 use super::check::{Capacity, overrun::outer_turns};
 use super::left_out::{LeftOut, left_out_of};
@@ -17,6 +16,7 @@ use crate::follow::Follow;
 use crate::margin::{Capacities, LIFT_OFF_TO_RAD_S, LoadState, lift_off_rad_s, load_margins, load_state};
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
 use crate::report::{Page, Screen, Table};
+use rayon::prelude::*;
 use std::fmt;
 
 /// What a user may choose; what is `None` is taken from the design.
@@ -103,7 +103,7 @@ pub struct ReengagementAnswer<'a> {
     pub borne: Option<BorneSlip>,
     /// Blows over friction and inertia, each at every path; empty where no such table was asked for.
     pub over: Vec<BlowAt>,
-    /// How many cases it was asked for.
+    /// How many were asked for.
     over_asked: usize,
     /// The scenario whose speed was taken; `None`: the speed was given, or the design names none.
     pub speed_of: Option<&'a str>,
@@ -269,7 +269,7 @@ impl ReengagementAnswer<'_> {
             .into_iter()
             .flat_map(|friction| inertias.iter().map(move |&inertia| [friction, inertia]))
             .collect();
-        self.over_asked = cases.len();
+        self.over_asked = cases.len() * self.case.paths_m.len();
         let one = |&[friction, inner_inertia_kg_m2]: &[f64; 2]| -> Result<Vec<BlowAt>, NoElement> {
             let inertia_kg_m2 = [inner_inertia_kg_m2, self.case.inertia_kg_m2[1]];
             let case = SlipUnderLoad { friction, inertia_kg_m2, ..self.case.clone() };
@@ -394,7 +394,7 @@ impl Said for ReengagementAnswer<'_> {
         match ends.last() {
             Some(Stop::Interrupted) => Finding::Stopped,
             Some(stop) if stop.gave_up() => Finding::NotKnown,
-            _ if self.over.len() < self.over_asked * self.case.paths_m.len() => Finding::Stopped,
+            _ if self.over.len() < self.over_asked => Finding::Stopped,
             _ => Finding::of(found.ended.is_none() && found.list.iter().all(|blow| self.bears_it(blow))),
         }
     }
