@@ -132,6 +132,15 @@ pub enum Carrier {
     InnerRace,
 }
 
+/// A cage that turns with the inner race and carries the sprags round: in overrun they slide on the outer race, until the
+/// centrifugal force lifts them off it. Without one the sprags ride with the outer race.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cage {
+    /// P in the body frame, m: the point of a sprag that the cage keeps from going outward and takes along. A sprag that
+    /// nothing presses on the inner race turns about it.
+    pub pivot_m: [f64; 2],
+}
+
 /// Energizing spring, per sprag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
@@ -254,6 +263,8 @@ pub struct Clutch {
     pub running: Option<Running>,
     /// Spring.
     pub spring: Spring,
+    /// The cage that carries the sprags with the inner race; `None`: a free one without mass, they ride with the outer race.
+    pub cage: Option<Cage>,
     /// Materials.
     pub materials: Materials,
     /// Friction.
@@ -305,6 +316,18 @@ impl Clutch {
         let offset = self.axial.offset_m;
         (offset + sprag).min(race) - (offset - sprag).max(-race)
     }
+
+    /// The overrun, rad/s, in which the race that the sprags ride with runs at `speed_rad_s` and the other stands: by how much the
+    /// inner race is ahead, and the speed of the outer one.
+    pub fn overrun_of_carrier(&self, speed_rad_s: f64) -> [f64; 2] {
+        if self.cage.is_some() { [speed_rad_s, 0.0] } else { [-speed_rad_s, speed_rad_s] }
+    }
+
+    /// Radius of the track on which the sprags slide in overrun, m.
+    pub fn sliding_track_m(&self) -> f64 {
+        if self.cage.is_some() { self.races.outer_radius_m } else { self.races.inner_radius_m }
+    }
+
     /// Masses of all sprags, of the inner and of the outer race (plain rings as wide as `races.width_mm`), kg.
     pub fn masses_kg(&self) -> [f64; 3] {
         let (s, r, m) = (&self.sprags, &self.races, &self.materials);

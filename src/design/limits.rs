@@ -161,11 +161,11 @@ limits! {
     slip_margin: "minimum" 0, "" -> slip_margin by same, ALONE,
         "Smallest slip margin wanted, static friction over required friction minus 1.";
     keep_contact_to_rpm: "exclusiveMinimum" 0, "rpm" -> keep_contact_to_rad_s by rad_s, ALONE,
-        "Speed of the outer race up to which the sprags must not lift off in overrun, rev/min.";
+        "Speed of the outer race, in a driven cage of the inner one, up to which the sprags must not lift off in overrun, rev/min.";
     lift_off_by_rpm: "exclusiveMinimum" 0, "rpm" -> lift_off_by_rad_s by rad_s, ALONE,
-        "Speed of the outer race by which the sprags must have lifted off the inner race in overrun, rev/min.";
+        "Speed of the outer race by which the sprags must have lifted off the inner race in overrun, in a driven cage of the\ninner race, off the outer one, rev/min.";
     film_lambda: "exclusiveMinimum" 0, "" -> film_lambda by same, AT_FILM_SPEED,
-        "Smallest ratio wanted of film to roughness at the sliding inner contact at film_at_rpm; needs the table `lubrication`.";
+        "Smallest ratio wanted of film to roughness at the sliding contact, the inner one or in a driven cage the outer one, at film_at_rpm; needs the table `lubrication`.";
     film_at_rpm: "exclusiveMinimum" 0, "rpm" -> film_at_rad_s by rad_s, ALONE,
         "Speed of the inner race in overrun, the outer one at rest, at which film_lambda is held, rev/min.";
 }

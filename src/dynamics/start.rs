@@ -7,15 +7,18 @@ use crate::numeric::root;
 use crate::wedge::{StaticPoint, WedgeCurve, WedgePoint};
 
 /// Friction coefficient behind the measured drag torque C_f from which alpha_max follows (MODEL choice).
-const DRAG_FRICTION: f64 = 0.1;
+pub(super) const DRAG_FRICTION: f64 = 0.1;
 
 /// alpha_max of the energizing spring, rad, from the drag torque of the whole clutch in slow overrun: per sprag
 /// T = C_f/(n_s R_i), N = T/mu, K_r alpha_max = (h_i - h_e) N + b_i T + b_e T R_i/R_e at first contact at rest.
-/// 0 without a spring. `touch` is the curve at rest.
+/// 0 without a spring. In a cage that the inner race drives B slides in its place ([`super::overrun_in_cage`]).
 pub fn alpha_max_rad(clutch: &Clutch, at_rest: &WedgeCurve) -> f64 {
     let stiffness = clutch.spring.stiffness_nm_per_rad;
     if stiffness <= 0.0 {
         return 0.0;
+    }
+    if let Some(cage) = &clutch.cage {
+        return super::cage::alpha_max_rad(clutch, cage, at_rest);
     }
     let c = at_rest.touch();
     let (oa, ob) = (c.lengths.oa.v, c.lengths.ob.v);
@@ -130,20 +133,24 @@ pub fn settled_point(model: &Model, torque_nm: f64, alpha: f64) -> Option<Static
     })
 }
 
-/// Steady overrun: the outer race carries the sprags round, the inner race slips ahead.
+/// Steady overrun: the inner race runs ahead, past sprags that the outer race carries round, or with sprags that its cage carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overrun {
     /// alpha of the sprag, rad.
     pub alpha_rad: f64,
-    /// Normal force at A, N; 0: lifted off.
+    /// Normal force at A, N.
     pub normal_inner_n: f64,
     /// Normal force at B, N.
     pub normal_outer_n: f64,
+    /// That of the two at the contact that slides, A, or B in a cage that the inner race drives; 0: lifted off.
+    pub sliding_n: f64,
+    /// What a driven cage holds each sprag with at its pivot: inward, and forward along the track, N; 0 without one.
+    pub cage_n: [f64; 2],
     /// Drag torque of the clutch on the inner race, N m, positive: it brakes the inner race.
     pub drag_torque_nm: f64,
-    /// |T_bi|/N_bi: the friction coefficient in overrun, 0 where A is open.
+    /// |T_bi|/N_bi: the friction coefficient in overrun, 0 where A is open, and in a cage that carries the sprags for it.
     pub tan_inner: f64,
-    /// |T_be|/N_be that B must hold to carry the sprags along.
+    /// |T_be|/N_be that B must hold to carry the sprags along; in a cage the friction coefficient.
     pub tan_outer: f64,
     /// Relative error of the forces: what is left of the moments, and their rounding, by what a change of N_bi leaves over.
     pub relative_error: f64,
@@ -203,6 +210,8 @@ pub fn overrun_under(
                 alpha_rad: alpha,
                 normal_inner_n: n,
                 normal_outer_n: n_be,
+                sliding_n: n,
+                cage_n: [0.0; 2],
                 drag_torque_nm,
                 tan_inner: mu,
                 tan_outer,
@@ -216,11 +225,19 @@ pub fn overrun_under(
         alpha_rad: touch.alpha.v,
         normal_inner_n: 0.0,
         normal_outer_n: f_c / touch.gamma.v.cos(),
+        sliding_n: 0.0,
+        cage_n: [0.0; 2],
         drag_torque_nm: 0.0,
         tan_inner: 0.0,
         tan_outer: 0.0,
         relative_error: 0.0,
     };
+    settle(balance, lifted)
+}
+
+/// The overrun in which `balance` leaves nothing: what is left over for more force at the sliding contact, N m, falls with that force;
+/// the size of its parts. `lifted` where it does not take any.
+pub(super) fn settle(balance: impl Fn(f64) -> Option<(f64, f64, Overrun)>, lifted: Overrun) -> Overrun {
     let Some((at_touch, ..)) = balance(0.0) else { return lifted };
     if at_touch <= 0.0 {
         return lifted;

@@ -7,7 +7,7 @@
 use super::contact_file::{ContactFile, EndKindFile};
 use super::design_file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
-use super::{axial, eccentricity, geometry, lubrication_file, running, steels};
+use super::{axial, cage_file, eccentricity, geometry, lubrication_file, running, steels};
 use crate::clutch::{Clutch, ContactLaw, Friction, LawName, Materials, ROLLER_COEFFICIENT, Races, Spring};
 use crate::design::{LIMIT_KEYS, LimitsFile};
 use crate::design::{Limits, m};
@@ -16,7 +16,10 @@ use std::f64::consts::FRAC_PI_2;
 /// The clutch of a file, or `None` with the reasons in `out`.
 pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
     let materials = steels::materials(&file.material, out);
-    let races = races(&file.races, materials.as_ref(), out);
+    let mut races = races(&file.races, materials.as_ref(), out);
+    if let (Some(races), Some(cage)) = (&mut races, &file.cage) {
+        races.inner_inertia_kg_m2 += cage.inertia_kg_m2;
+    }
     let friction = friction(file, out);
     let contact = contact(&file.contact, out);
     let lubrication = lubrication_file::lubrication(file, out);
@@ -38,11 +41,13 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
     let sprags = geometry::sprags(&file.sprags, &made, materials.as_ref(), out);
     let (races, sprags, running) = running::running(file, made, sprags?, materials.as_ref()?, out)?;
     eccentricity::check(&races, &sprags, out);
+    let cage = file.cage.as_ref().map(|cage| cage_file::cage(cage, &races, &sprags, out));
     Some(Clutch {
         sprags,
         races,
         running,
         spring,
+        cage: cage.flatten(),
         materials: materials?,
         friction: friction?,
         lubrication: lubrication?,

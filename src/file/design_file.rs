@@ -4,6 +4,7 @@
 //! [`super::shape`] enforces, so ranges of single keys are stated here and nowhere else. Absent: rules that
 //! join several keys ([`super::check`]). Equations: none. The doc comments are the schema's descriptions.
 
+use super::cage_file::CageFile;
 use super::contact_file::ContactFile;
 use super::drivetrain_file::DriveFile;
 use super::life_file::LifeFile;
@@ -34,6 +35,8 @@ pub(super) struct DesignFile {
     pub races: RacesFile,
     /// Energizing spring.
     pub spring: SpringFile,
+    /// Cage that turns with the inner race and carries the sprags; absent: free and massless, the sprags ride with the outer race.
+    pub cage: Option<CageFile>,
     /// Material: the three keys for all bodies alike, or the tables sprag, inner_race and outer_race.
     pub material: MaterialFile,
     /// Friction law (12).

@@ -32,7 +32,7 @@ pub(super) struct LubricationFile {
     /// balance: the film is at the temperature that contact and bodies reach; given: at temperature_c.
     #[serde(default)]
     pub temperatures: TemperaturesFile,
-    /// Roughness Rq of the inner race's track, um.
+    /// Roughness Rq of the track that sprags slide on, the inner race's, in a [cage] the outer one's, um.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 100))]
     pub race_roughness_um: f64,
     /// Roughness Rq of the sprags, um.
@@ -45,7 +45,7 @@ pub(super) struct LubricationFile {
     #[serde(default = "boundary_lubricated")]
     #[schemars(extend("minimum" = 0))]
     pub sprag_wear_mm3_per_nm: f64,
-    /// Archard's coefficient of the inner race, mm^3/(N m), of the load that asperities carry.
+    /// Archard's coefficient of the race that sprags slide on, mm^3/(N m), of the load that asperities carry.
     #[serde(default = "boundary_lubricated")]
     #[schemars(extend("minimum" = 0))]
     pub race_wear_mm3_per_nm: f64,

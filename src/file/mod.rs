@@ -4,6 +4,7 @@
 //! or [`DesignError`] with every key at fault; texts with values changed. Absent: any physics; what a design is (`design`). Equations: none.
 
 mod axial;
+mod cage_file;
 mod check;
 mod contact_file;
 mod design_file;

@@ -43,7 +43,7 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
 
 /// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](crate::design::LIMIT_KEYS).
 #[cfg(test)]
-const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal", "lubrication", "sharing"];
+const OTHER_TABLES: &[&str] = &["cage", "drivetrain", "scenarios", "thermal", "lubrication", "sharing"];
 
 /// Unit of every number in these tables by the last step of its path, as printed; a pure number has none.
 const UNITS: &[(&str, &str)] = &[

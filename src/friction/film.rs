@@ -1,15 +1,15 @@
-//! Friction of contact A on a film of oil, over sliding speed and load.
+//! Friction of a contact on a film of oil, over sliding speed and load.
 
 use crate::clutch::Clutch;
 use crate::lubrication::{Film, FilmContact, Fluid, Shear, asperity_share, film, shear, squeeze_n_s_per_m};
 
-/// Inner contact of a clutch that overruns: the race slides through it, the sprag stands.
+/// Contact of a clutch that overruns: the race slides through it, the sprag stands.
 ///
 /// T = phi mu_b N + (1 - phi)(couette + rolling), phi the asperities' share at lambda = h/sigma: a Stribeck curve
 /// that nothing is fitted to but phi.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmFriction {
-    /// Sprag and inner race.
+    /// Sprag and race.
     pub contact: FilmContact,
     /// The oil at the temperature of the contact.
     pub fluid: Fluid,
@@ -39,13 +39,33 @@ pub struct FilmState {
 impl FilmFriction {
     /// Contact A of `clutch` with its oil at `temperature_c`; `None` without `[lubrication]`.
     pub fn of(clutch: &Clutch, temperature_c: f64) -> Option<Self> {
-        let lubrication = clutch.lubrication.as_ref()?;
-        let (sprag, race) = (clutch.materials.sprag, clutch.materials.inner_race);
         let radius = clutch.sprags.inner_arcs.first()?.radius_m;
+        let radius_m = 1.0 / (1.0 / clutch.races.inner_radius_m + 1.0 / radius);
+        Self::on(clutch, clutch.materials.inner_race.plane_strain_compliance(), radius_m, temperature_c)
+    }
+
+    /// The contact that slides in overrun: A, or B in a cage that the inner race drives.
+    pub fn in_overrun(clutch: &Clutch, temperature_c: f64) -> Option<Self> {
+        if clutch.cage.is_none() {
+            return Self::of(clutch, temperature_c);
+        }
+        let race = clutch.materials.outer_race.plane_strain_compliance();
+        Self::on(clutch, race, Self::outer_radius_m(clutch), temperature_c)
+    }
+
+    /// R of 1/R = 1/r_e - 1/R_e, m.
+    pub fn outer_radius_m(clutch: &Clutch) -> f64 {
+        1.0 / (1.0 / clutch.sprags.outer_radius_m - 1.0 / clutch.races.outer_radius_m)
+    }
+
+    /// A sprag on a race of that compliance, 1/Pa, radius of the contact `radius_m`.
+    fn on(clutch: &Clutch, race_per_pa: f64, radius_m: f64, temperature_c: f64) -> Option<Self> {
+        let lubrication = clutch.lubrication.as_ref()?;
+        let sprag = clutch.materials.sprag;
         Some(Self {
             contact: FilmContact {
-                radius_m: 1.0 / (1.0 / clutch.races.inner_radius_m + 1.0 / radius),
-                modulus_pa: 2.0 / (sprag.plane_strain_compliance() + race.plane_strain_compliance()),
+                radius_m,
+                modulus_pa: 2.0 / (sprag.plane_strain_compliance() + race_per_pa),
                 length_m: clutch.contact_length_m(),
             },
             fluid: Fluid {

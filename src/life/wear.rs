@@ -11,7 +11,7 @@ use crate::margin::{LoadState, OverrunPoint};
 pub struct HourlyWear {
     /// Of a sprag in the first hour from its drawn shape, m: it grows with the power 2/3 of time.
     pub sprag_m: f64,
-    /// Of the track of the inner race, in every hour alike, m.
+    /// Of the track that they slide on, in every hour alike, m.
     pub race_m: f64,
 }
 
@@ -21,21 +21,18 @@ pub fn hourly_wear(design: &Design, point: &OverrunPoint) -> Option<HourlyWear> 
     let on_film = point.lubricated.as_ref()?;
     let contact = &on_film.law.contact;
     let clutch = &design.clutch;
-    let path_m = point.speed_rad_s * clutch.races.inner_radius_m * 3600.0;
-    let rubbed = on_film.film.asperities * point.state.normal_inner_n * path_m;
+    let track_m = clutch.sliding_track_m();
+    let path_m = point.speed_rad_s * track_m * 3600.0;
+    let rubbed = on_film.film.asperities * point.state.sliding_n * path_m;
     let all = clutch.sprags.count as f64 * rubbed;
     Some(HourlyWear {
         sprag_m: flat_depth_m(
             lubrication.sprag_wear_m2_per_n * rubbed,
             contact.radius_m,
             contact.length_m,
-            contact.half_width_m(point.state.normal_inner_n),
+            contact.half_width_m(point.state.sliding_n),
         ),
-        race_m: track_depth_m(
-            lubrication.race_wear_m2_per_n * all,
-            clutch.races.inner_radius_m,
-            contact.length_m,
-        ),
+        race_m: track_depth_m(lubrication.race_wear_m2_per_n * all, track_m, contact.length_m),
     })
 }
 

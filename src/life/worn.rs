@@ -291,7 +291,7 @@ impl March<'_> {
         for overrun in &self.service.overruns {
             let scenario = self.design.scenario(&overrun.scenario);
             let Some([ahead, outer]) = scenario.and_then(|s| s.kind.overrun_rad_s()) else { continue };
-            let Ok(point) = overrun_at(self.design, &relaxed, outer, ahead.abs()) else { continue };
+            let Ok(point) = overrun_at(self.design, &relaxed, outer, ahead) else { continue };
             let Some(on_film) = point.lubricated.as_ref() else { continue };
             let path_m = ahead.abs() * clutch.races.inner_radius_m * overrun.duration_s;
             let rubbed = on_film.film.asperities * point.state.normal_inner_n * path_m;
@@ -326,8 +326,7 @@ impl March<'_> {
             .overruns
             .first()
             .and_then(|o| self.design.scenario(&o.scenario)?.kind.overrun_rad_s());
-        let point =
-            first.and_then(|[ahead, outer]| overrun_at(self.design, &relaxed, outer, ahead.abs()).ok());
+        let point = first.and_then(|[ahead, outer]| overrun_at(self.design, &relaxed, outer, ahead).ok());
         let opened_m =
             wear.inner_track_m + wear.outer_track_m + flat_m + wear.inner_arcs_m[0] + wear.outer_arc_m;
         let mut state = WornState {

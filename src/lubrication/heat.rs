@@ -48,6 +48,15 @@ pub struct Heat {
 }
 
 impl Heat {
+    /// The same with inner and outer race in each other's place: the heat was made at the outer one.
+    pub fn inside_out(self) -> Self {
+        let Temperatures { inner_race, outer_race, .. } = self.temperatures;
+        let [inner, sprags, outer] = self.to_oil_w;
+        let temperatures =
+            Temperatures { inner_race: outer_race, outer_race: inner_race, ..self.temperatures };
+        Self { temperatures, to_oil_w: [outer, sprags, inner], ..self }
+    }
+
     /// What the balance leaves, by the heat made; 0 without heat.
     pub fn balance_error(&self) -> f64 {
         let left = (self.heat_w - self.to_oil_w.iter().sum::<f64>()).abs();

@@ -205,7 +205,13 @@ fn unloaded_row(case: &LoadCase, limit: &'static Limit) -> Option<Margin> {
         Of::Film => {
             let (wanted, speed) = (limits.film_lambda?, limits.film_at_rad_s?);
             let point = overrun_at(design, state, 0.0, speed).ok()?;
-            (wanted, point.lubricated?.film.lambda)
+            let demand = Demand::Value(wanted);
+            let row = Margin::new(limit, demand, point.lubricated?.film.lambda);
+            let caged = design.clutch.cage.is_some();
+            return Some(match caged {
+                true => Margin { name: row.name.replace("inner", "outer"), ..row },
+                false => row,
+            });
         }
         _ => return None,
     };

@@ -1,31 +1,35 @@
 //! Overrun: how hard the sprags rub, what they drag, and at which speed they lift off.
 //!
-//! The sprags ride with the outer race, so their speed is that of the outer race: where the inner race alone runs they
+//! Without a driven cage the sprags ride with the outer race, so their speed is that of the outer race: where the inner race alone runs they
 //! are at rest and nothing but sliding friction changes with the speed; where the outer race runs, the centrifugal
 //! force acts at G. It presses the sprags in where G lies behind C_e (gamma > 0, an engaging design) and lifts them off
-//! the inner race where G lies ahead (gamma < 0, a disengaging one).
+//! the inner race where G lies ahead (gamma < 0, a disengaging one). A cage that the inner race drives carries them with that one:
+//! then B slides, the centrifugal force is that of the inner race's speed, and lifts them off the outer race.
 
 use super::load::LoadState;
+use crate::clutch::{Clutch, Sprags};
 use crate::design::Design;
-use crate::dynamics::{Overrun, Swing};
+use crate::dynamics::{Overrun, Swing, pivot_moments};
 use crate::follow::Follow;
 use crate::kinematics::levers;
 use crate::numeric::root;
 use crate::scenario::{Lubricated, sliding};
 use crate::wedge::{FIRST_CONTACT_N, NoCurve, WedgeCurve};
+use std::borrow::Cow;
 
 /// One steady overrun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OverrunPoint {
-    /// Speed at which the inner contact slides: that of the race that runs, the other one at rest, rad/s, not negative.
+    /// Speed of the races against one another, at which the inner contact slides, in a driven cage the outer one, rad/s, not negative.
     pub speed_rad_s: f64,
-    /// Friction coefficient of the sliding inner contact at that speed, pure number.
+    /// Friction coefficient of the sliding contact at that speed, pure number.
     pub friction: f64,
     /// Equilibrium of one sprag, and the drag torque of all.
     pub state: Overrun,
-    /// Contact A on its film, and its heat; `None` without `[lubrication]` and where A is open.
+    /// That contact on its film, and its heat; `None` without `[lubrication]` and where it is open.
     pub lubricated: Option<Lubricated>,
-    /// The small swing about that equilibrium, races at constant speeds; `None` where A is open or nothing slides.
+    /// The small swing about that equilibrium, races at constant speeds; `None` where A is open or nothing slides, and in a
+    /// driven cage.
     pub swing: Option<Swing>,
     /// The same with the film's friction alone, without its squeeze; `None` without a film.
     pub swing_by_friction: Option<Swing>,
@@ -40,7 +44,7 @@ pub struct OverrunPoint {
 pub struct OverrunCurve {
     /// The outer race runs, the inner one stands; speeds rise from 0.
     pub outer_race: Vec<OverrunPoint>,
-    /// The inner race runs, the outer one and the sprags stand.
+    /// The inner race runs, the outer one stands, and the sprags with it unless a cage carries them.
     pub inner_race: Vec<OverrunPoint>,
     /// gamma at first contact at rest, rad: positive engages at speed, negative disengages.
     pub gamma_rad: f64,
@@ -60,17 +64,31 @@ pub fn overrun_curve(
     follow: &Follow,
 ) -> Result<OverrunCurve, NoCurve> {
     // The first arc is all that overrun feels.
-    let build = |speed: f64| WedgeCurve::build_reaching(&design.clutch, &state.profile, speed, Some(0.0));
-    let point = |curve: &WedgeCurve, speed: f64| point(design, state, curve, speed);
+    let build = |speed: f64| touch(design, state, speed);
+    let point = |curve: &WedgeCurve, ahead: f64| point(design, state, curve, ahead);
     let rest = build(0.0)?;
     let speeds = (0..SPEEDS).map(|i| up_to_rad_s * i as f64 / (SPEEDS - 1) as f64);
     let speeds = speeds.take_while(|_| !follow.stopped());
     let inner_race = speeds.clone().map(|speed| point(&rest, speed)).collect();
-    let outer_race = speeds.map_while(|speed| build(speed).ok().map(|curve| point(&curve, speed))).collect();
+    let outer_race = speeds.map_while(|speed| build(speed).ok().map(|curve| point(&curve, -speed))).collect();
     Ok(OverrunCurve { outer_race, inner_race, gamma_rad: state.curve.statics().gamma0_rad() })
 }
 
-/// The steady overrun in which the outer race runs at `outer_rad_s` and the inner one slides past it at `sliding_rad_s`.
+/// A curve as far as overrun feels it, the first contact at that speed of the outer race; in a driven cage without the sprags' weight,
+/// whose force is that of another speed.
+fn touch(design: &Design, state: &LoadState, outer_rad_s: f64) -> Result<WedgeCurve, NoCurve> {
+    let clutch = match design.clutch.cage {
+        Some(_) if outer_rad_s != 0.0 => {
+            let sprags = Sprags { mass_kg: 0.0, ..design.clutch.sprags.clone() };
+            Cow::Owned(Clutch { sprags, ..design.clutch.clone() })
+        }
+        _ => Cow::Borrowed(&design.clutch),
+    };
+    WedgeCurve::build_reaching(&clutch, &state.profile, outer_rad_s, Some(0.0))
+}
+
+/// The steady overrun in which the outer race runs at `outer_rad_s` and the inner one is ahead of it by `ahead_rad_s`: behind it, as
+/// where it stands, if that is negative.
 ///
 /// # Errors
 /// [`NoCurve`] where there is no first contact at that speed.
@@ -78,17 +96,18 @@ pub fn overrun_at(
     design: &Design,
     state: &LoadState,
     outer_rad_s: f64,
-    sliding_rad_s: f64,
+    ahead_rad_s: f64,
 ) -> Result<OverrunPoint, NoCurve> {
-    let curve = WedgeCurve::build_reaching(&design.clutch, &state.profile, outer_rad_s, Some(0.0))?;
-    Ok(point(design, state, &curve, sliding_rad_s))
+    let curve = touch(design, state, outer_rad_s)?;
+    Ok(point(design, state, &curve, ahead_rad_s))
 }
 
-/// The sprags at the speed of `curve`, sliding at `speed_rad_s`.
-fn point(design: &Design, state: &LoadState, curve: &WedgeCurve, speed_rad_s: f64) -> OverrunPoint {
+/// The outer race at the speed of `curve`, the inner one ahead by `ahead_rad_s`.
+fn point(design: &Design, state: &LoadState, curve: &WedgeCurve, ahead_rad_s: f64) -> OverrunPoint {
+    let speed_rad_s = ahead_rad_s.abs();
     let clutch = &design.clutch;
     let ring = &state.curve.statics().elastic.outer_race;
-    let found = sliding(clutch, curve, state.alpha_max_rad, speed_rad_s);
+    let found = sliding(clutch, curve, state.alpha_max_rad, ahead_rad_s);
     OverrunPoint {
         speed_rad_s,
         friction: found.friction,
@@ -107,8 +126,12 @@ fn point(design: &Design, state: &LoadState, curve: &WedgeCurve, speed_rad_s: f6
 /// at overrun speed `speed_rad_s`, N m. Contact is kept while the first is smaller. Zero load at A, and with it no
 /// friction there (|T_bi| <= mu N_bi) nor at B (T_be OB = T_bi OA): h_e N_be = h_e m_g OC_g Omega^2/cos gamma, which closes
 /// for gamma > 0 and opens for gamma < 0. The closure's own N_be is not that: it holds the sprag without a spring, by the
-/// T_bi at N_bi = 0 that this takes (its `t_offset_n`), which a contact without load does not have.
+/// T_bi at N_bi = 0 that this takes (its `t_offset_n`), which a contact without load does not have. In a driven cage about its pivot,
+/// `speed_rad_s` that of the inner race, the outer one at rest ([`crate::dynamics::overrun_in_cage`]).
 pub(super) fn overrun_moments(design: &Design, state: &LoadState, speed_rad_s: f64) -> (f64, f64) {
+    if let Some(cage) = &design.clutch.cage {
+        return pivot_moments(&design.clutch, cage, &state.curve, state.alpha_max_rad, speed_rad_s);
+    }
     let spring = design.clutch.spring.stiffness_nm_per_rad;
     // First contact at speed: only the touch of the curve is needed, a closure at N -> 0.
     let statics = state.curve.statics();
@@ -129,8 +152,8 @@ pub const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * std::f64::consts::PI / 30.0;
 /// How exactly the speed of lift-off is located, by the range in which it is looked for.
 pub const LIFT_OFF_ERROR: f64 = 1e-12;
 
-/// Lift-off speed of the outer race, rad/s: opening = closing moment, which is where [`overrun_at`] ends to find a normal
-/// force at A; `None` where contact is kept to `up_to`.
+/// Lift-off speed, rad/s, of the outer race, in a driven cage of the inner one: opening = closing moment, which is where [`overrun_at`]
+/// ends to find a normal force at the sliding contact; `None` where contact is kept to `up_to`.
 pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Option<f64> {
     let left = |speed: f64| {
         let (opening, closing) = overrun_moments(design, state, speed);

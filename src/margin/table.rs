@@ -169,9 +169,11 @@ pub static KEEP_CONTACT: Limit = Limit {
     rule: Rule::Share,
     explanation: "Moment of the centrifugal force that lifts a sprag off the inner race in overrun, about its centroid, against \
                   that of the energizing spring, at the speed up to which contact is to be kept. A stiffer spring, or a \
-                  centroid less far ahead of the sprag's outer centre, keeps contact.",
-    formula: "-h_e m_g OC_g Omega^2/cos gamma against K_r (alpha_max - alpha), both at first contact at that speed",
-    source: "Huang 2017, (13b), without load at A",
+                  centroid less far ahead of the sprag's outer centre, keeps contact. In a [cage] it lifts the sprag off the outer race, \
+                  about the pivot, by the inner race's speed.",
+    formula: "-h_e m_g OC_g Omega^2/cos gamma against K_r (alpha_max - alpha), both at first contact at that speed; in a cage \
+              m_g OC_g OP sin(-pi) Omega^2",
+    source: "Huang 2017, (13b), without load at A; in a cage this project",
     of: Of::KeepContact,
     ..GRIP
 };
@@ -183,10 +185,11 @@ pub static LIFT_OFF: Limit = Limit {
     name: |_| "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
     rule: Rule::Reserve,
     explanation: "Moment of the energizing spring against that of the centrifugal force, at the overrun speed by which the \
-                      sprags are to have lifted off the inner race. A softer spring, or a centroid farther ahead of the \
-                      sprag's outer centre, lifts off earlier.",
-    formula: "K_r (alpha_max - alpha) against -h_e m_g OC_g Omega^2/cos gamma, both at first contact at that speed",
-    source: "Huang 2017, (13b), without load at A",
+                      sprags are to have lifted off the inner race, in a [cage] off the outer one. A softer spring, or a centroid \
+                      farther ahead of the sprag's outer centre, in a cage of the pivot, lifts off earlier.",
+    formula: "K_r (alpha_max - alpha) against -h_e m_g OC_g Omega^2/cos gamma, both at first contact at that speed; in a cage \
+              m_g OC_g OP sin(-pi) Omega^2",
+    source: "Huang 2017, (13b), without load at A; in a cage this project",
     of: Of::LiftOff,
     ..KEEP_CONTACT
 };
@@ -200,8 +203,8 @@ pub static FILM: Limit = Limit {
     per_si: 1.0,
     when: When::Overrun,
     rule: Rule::Ratio,
-    explanation: "Thickness of the oil film at the inner contact over the roughness of both surfaces, in overrun of the inner race at \
-                  film_at_rpm: what is wanted against what there is. A thicker or cooler oil, smoother surfaces, longer sprags or a \
+    explanation: "Thickness of the oil film at the inner contact, in a [cage] the outer one, over the roughness of both surfaces, in overrun \
+                  of the inner race at film_at_rpm: what is wanted against what there is. A thicker or cooler oil, smoother surfaces, longer sprags or a \
                   weaker spring raise it.",
     formula: "lambda = h/sqrt(Rq_sprag^2 + Rq_race^2), h = R U^(1/2) H(M, L), the film where the pressure is largest",
     source: "Moes' line contact (2000); see the command overrun",

@@ -77,8 +77,10 @@ pub(super) fn measures(
         Objective::Drag => {
             let fast = limits.keep_contact_to_rad_s.filter(|&speed| speed > 0.0);
             let speeds = [("slow", 0.0)].into_iter().chain(fast.map(|speed| ("at-speed", speed)));
-            let drag =
-                |speed| overrun_at(design, state, speed, speed).map_or(0.0, |p| p.state.drag_torque_nm);
+            let drag = |speed| {
+                let [ahead, outer] = design.clutch.overrun_of_carrier(speed);
+                overrun_at(design, state, outer, ahead).map_or(0.0, |p| p.state.drag_torque_nm)
+            };
             speeds.map(|(when, speed)| measure(format!("drag:{when}"), -drag(speed))).collect()
         }
         Objective::Mass => less(design.clutch.mass_kg()),

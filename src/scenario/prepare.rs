@@ -30,6 +30,12 @@ pub enum NoScenario {
         /// Name of the curve's end.
         reason: &'static str,
     },
+    /// The equations of motion have sprags that ride with the outer race.
+    #[error(
+        "[cage] has the sprags carried by the inner race, and the equations of motion know overrun only with sprags that ride \
+         with the outer race: `check` and `overrun` look at steady overrun with it; without [cage] the sprags ride with the outer race"
+    )]
+    DrivenCage,
     /// The published scheme integrates the clutch alone, and the scene has a drivetrain.
     #[error(
         "the published scheme moves no drivetrain: take the event method, or give the scenario drivetrain = \
@@ -165,6 +171,9 @@ fn at_start(
     known: Option<AtRest>,
 ) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
+    if clutch.cage.is_some() && scenario.kind.overrun_rad_s().is_some() {
+        return Err(NoScenario::DrivenCage);
+    }
     let profile = clutch.profile().map_err(NoScenario::Profile)?;
     let known = known.filter(|k| k.clutch == clutch);
     let build = |speed: f64| {
@@ -291,7 +300,7 @@ fn at_start(
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
             let curve = build(speed_rad_s)?;
             // Which race runs ahead is no matter to the sprags: they ride with the outer one, and slide on the inner one as fast.
-            let sliding = sliding(clutch, &curve, alpha_max, overrun_rad_s.abs());
+            let sliding = sliding(clutch, &curve, alpha_max, overrun_rad_s);
             let steady = sliding.state;
             let mut model = Model::new(clutch, curve, still, alpha_max, 0.0);
             model.film = sliding.lubricated.map(|l| l.law);
@@ -303,13 +312,13 @@ fn at_start(
     }
 }
 
-/// mu at A, where the inner race runs ahead of the sprags by `overrun_rad_s`.
+/// mu at the contact that slides, where the inner race runs ahead of the sprags by `overrun_rad_s`.
 pub fn sliding_friction(clutch: &Clutch, overrun_rad_s: f64) -> f64 {
     friction_under(clutch, &Stribeck::of(&clutch.friction), overrun_rad_s)
 }
 
 fn friction_under(clutch: &Clutch, law: &Stribeck, overrun_rad_s: f64) -> f64 {
-    law.coefficient(overrun_rad_s * clutch.races.inner_radius_m)
+    law.coefficient(overrun_rad_s * clutch.sliding_track_m())
 }
 
 /// Start in steady overrun: the sprags ride with the outer race, the inner race runs ahead by `speed_rad_s`.

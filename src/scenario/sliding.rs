@@ -2,7 +2,7 @@
 
 use super::prepare::sliding_friction;
 use crate::clutch::{Clutch, Lubrication};
-use crate::dynamics::{Overrun, Swing, overrun, overrun_under, swing_on_film, swing_with_friction};
+use crate::dynamics::{Overrun, Swing, overrun_in_cage, overrun_under, swing_on_film, swing_with_friction};
 use crate::friction::{FilmFriction, FilmState};
 use crate::lubrication::{FilmContact, Heat, Network, moving_strip, standing_strip};
 use crate::numeric::root;
@@ -14,13 +14,13 @@ use std::f64::consts::PI;
 pub struct Sliding {
     /// Forces of one sprag, and the drag of all.
     pub state: Overrun,
-    /// Friction coefficient of A; (12)'s where A is open.
+    /// Friction coefficient of the contact that slides; (12)'s where it is open.
     pub friction: f64,
-    /// Contact A on its film; `None` without `[lubrication]` and where A is open.
+    /// That contact on its film; `None` without `[lubrication]` and where it is open.
     pub lubricated: Option<Lubricated>,
 }
 
-/// Contact A on its film, and where its heat goes.
+/// The sliding contact on its film, and where its heat goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lubricated {
     /// Its law at that temperature.
@@ -36,26 +36,46 @@ pub struct Lubricated {
 /// Heat that goes from a wetted steel surface to oil that splashes, W/(m^2 K): an estimate, 50 in mist to 1000 in a jet.
 const TO_OIL_W_PER_M2_K: f64 = 200.0;
 
-/// The sprags of `clutch` on `curve`, A sliding at `sliding_rad_s`.
-pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, sliding_rad_s: f64) -> Sliding {
+/// The sprags of `clutch` on `curve`, which is that of the outer race's speed, the inner race ahead by `ahead_rad_s`. In a cage that
+/// the inner race drives, the curve is that of weightless sprags, as of [`overrun_in_cage`].
+pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, ahead_rad_s: f64) -> Sliding {
+    let sliding_rad_s = ahead_rad_s.abs();
     let by_law = sliding_friction(clutch, sliding_rad_s);
     let lubricated = clutch.lubrication.as_ref().and_then(|lubrication| {
-        let steady = Steady { clutch, lubrication, curve, alpha_max_rad, sliding_rad_s };
+        let steady = Steady { clutch, lubrication, curve, alpha_max_rad, ahead_rad_s };
         steady.at(steady.balanced_c()?)
     });
     match lubricated {
         Some((state, lubricated)) => {
-            Sliding { state, friction: state.tan_inner, lubricated: Some(lubricated) }
+            let friction = if clutch.cage.is_some() { state.tan_outer } else { state.tan_inner };
+            Sliding { state, friction, lubricated: Some(lubricated) }
         }
         None => {
-            let state = overrun(clutch, curve, alpha_max_rad, by_law);
+            let state = settled(clutch, curve, alpha_max_rad, ahead_rad_s, |_| [by_law, 0.0]);
             Sliding { state, friction: by_law, lubricated: None }
         }
     }
 }
 
+/// The equilibrium whose sliding contact has [mu, x_p] under its load.
+fn settled(
+    clutch: &Clutch,
+    curve: &WedgeCurve,
+    alpha_max_rad: f64,
+    ahead_rad_s: f64,
+    friction: impl Fn(f64) -> [f64; 2],
+) -> Overrun {
+    match &clutch.cage {
+        Some(cage) => {
+            let cage_rad_s = curve.speed_rad_s() + ahead_rad_s;
+            overrun_in_cage(clutch, cage, curve, alpha_max_rad, cage_rad_s, friction)
+        }
+        None => overrun_under(clutch, curve, alpha_max_rad, friction),
+    }
+}
+
 impl Sliding {
-    /// The small swing about it; arguments as of [`sliding()`].
+    /// The small swing about it, A sliding at `sliding_rad_s`; other arguments as of [`sliding()`]. None known in a driven cage.
     pub fn swing(
         &self,
         clutch: &Clutch,
@@ -63,13 +83,16 @@ impl Sliding {
         alpha_max_rad: f64,
         sliding_rad_s: f64,
     ) -> Option<Swing> {
+        if clutch.cage.is_some() {
+            return None;
+        }
         let film = self.lubricated.as_ref().map(|l| &l.law);
         swing_on_film(clutch, curve, alpha_max_rad, &self.state, sliding_rad_s, film)
     }
 }
 
 impl Lubricated {
-    /// The small swing with the film's friction alone, without what its thickness does; arguments as of [`sliding()`].
+    /// The small swing with the film's friction alone, without what its thickness does; arguments as of [`Sliding::swing`].
     pub fn swing_by_friction(
         &self,
         steady: &Overrun,
@@ -78,6 +101,9 @@ impl Lubricated {
         alpha_max_rad: f64,
         sliding_rad_s: f64,
     ) -> Option<Swing> {
+        if clutch.cage.is_some() {
+            return None;
+        }
         swing_with_friction(clutch, curve, alpha_max_rad, steady, sliding_rad_s, Some(&self.law))
     }
 }
@@ -88,35 +114,41 @@ struct Steady<'a> {
     lubrication: &'a Lubrication,
     curve: &'a WedgeCurve,
     alpha_max_rad: f64,
-    sliding_rad_s: f64,
+    ahead_rad_s: f64,
 }
 
 impl Steady<'_> {
-    /// With the film at `film_c`; `None` where A is open.
+    fn sliding_rad_s(&self) -> f64 {
+        self.ahead_rad_s.abs()
+    }
+
+    /// With the film at `film_c`; `None` where the contact is open.
     fn at(&self, film_c: f64) -> Option<(Overrun, Lubricated)> {
-        let law = FilmFriction::of(self.clutch, film_c)?;
-        let speed = self.sliding_rad_s * self.clutch.races.inner_radius_m;
-        let state = overrun_under(self.clutch, self.curve, self.alpha_max_rad, |n| {
+        let law = FilmFriction::in_overrun(self.clutch, film_c)?;
+        let speed = self.sliding_rad_s() * self.clutch.sliding_track_m();
+        let state = settled(self.clutch, self.curve, self.alpha_max_rad, self.ahead_rad_s, |n| {
             [law.coefficient(speed, n), law.ahead_m(speed, n)]
         });
-        if state.normal_inner_n <= 0.0 {
+        if state.sliding_n <= 0.0 {
             return None;
         }
-        let film = law.at(speed, state.normal_inner_n);
-        let heat = self
-            .network(&law, &state)
-            .solve(state.drag_torque_nm * self.sliding_rad_s, self.lubrication.temperature_c)?;
+        let film = law.at(speed, state.sliding_n);
+        let network = self.network(&law, &state);
+        let heat =
+            network.solve(state.drag_torque_nm * self.sliding_rad_s(), self.lubrication.temperature_c)?;
+        let heat = if self.clutch.cage.is_some() { heat.inside_out() } else { heat };
         Some((state, Lubricated { law, film, film_c, heat }))
     }
 
     /// Temperature of the film, C: the mean of the bodies beside it, where what they reach is what the film was taken to have.
-    /// `None` where A is open.
+    /// `None` where the contact is open.
     fn balanced_c(&self) -> Option<f64> {
         let oil_c = self.lubrication.temperature_c;
         let left = |film_c: f64| {
             self.at(film_c).map_or(oil_c - film_c, |(_, l)| {
                 let t = l.heat.temperatures;
-                0.5 * (t.inner_race + t.sprags) - film_c
+                let race = if self.clutch.cage.is_some() { t.outer_race } else { t.inner_race };
+                0.5 * (race + t.sprags) - film_c
             })
         };
         self.at(oil_c)?;
@@ -132,18 +164,25 @@ impl Steady<'_> {
         root::bracketed(oil_c, high, at_oil, left(high), 1e-11 * high.abs().max(1.0), left)
     }
 
-    /// Conductances: those of the file, the others by the surfaces of plain rings; contacts as strips as wide as they are flattened, or
+    /// Conductances, those of the inner race in place of those of the outer one and the other way round where B slides: those of the file, the others by the surfaces of plain rings; contacts as strips as wide as they are flattened, or
     /// wetted where that is more.
     fn network(&self, law: &FilmFriction, state: &Overrun) -> Network {
         let Clutch { races, sprags, .. } = self.clutch;
-        let speed = self.sliding_rad_s * races.inner_radius_m;
-        let film = law.at(speed, state.normal_inner_n).film;
+        let outside = self.clutch.cage.is_some();
+        let speed = self.sliding_rad_s() * self.clutch.sliding_track_m();
+        let film = law.at(speed, state.sliding_n).film;
         let contact = &law.contact;
         let wetted = (2.0 * contact.radius_m * film.thickness_m).sqrt();
-        let half = contact.half_width_m(state.normal_inner_n).hypot(wetted);
-        let outer_radius = 1.0 / (1.0 / sprags.outer_radius_m - 1.0 / races.outer_radius_m);
-        let outer = FilmContact { radius_m: outer_radius, ..*contact };
-        let outer_half = outer.half_width_m(state.normal_outer_n).max(1e-6);
+        let half = contact.half_width_m(state.sliding_n).hypot(wetted);
+        let of_a = FilmFriction::of(self.clutch, self.lubrication.temperature_c).map(|law| law.contact);
+        let (other, pressed_n, far) = match of_a.filter(|_| outside) {
+            Some(a) => (a, state.normal_inner_n, a.radius_m),
+            None => {
+                let b = FilmContact { radius_m: FilmFriction::outer_radius_m(self.clutch), ..*contact };
+                (b, state.normal_outer_n, sprags.outer_radius_m)
+            }
+        };
+        let other_half = other.half_width_m(pressed_n).max(1e-6);
         let count = sprags.count as f64;
         let length = count * contact.length_m;
         let ring = |r: f64, far: f64| {
@@ -156,11 +195,15 @@ impl Steady<'_> {
         ];
         let given = self.lubrication.to_oil_w_per_k;
         let to_oil = |i: usize| given[i].unwrap_or(TO_OIL_W_PER_M2_K * areas[i]);
+        let mut to_oil: [f64; 3] = std::array::from_fn(to_oil);
+        if outside {
+            to_oil.reverse();
+        }
         Network {
             into_race: moving_strip(length, half, speed).max(1e-9),
             into_sprags: standing_strip(length, half, contact.radius_m),
-            through_outer: 0.5 * standing_strip(length, outer_half, sprags.outer_radius_m),
-            to_oil: std::array::from_fn(to_oil),
+            through_outer: 0.5 * standing_strip(length, other_half, far),
+            to_oil,
         }
     }
 }

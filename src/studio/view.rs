@@ -273,7 +273,10 @@ fn figures(design: &Design, state: &LoadState, rows: &[Margin]) -> [(&'static st
         ("width", Unit::Millimetre.show(races.width_m, 4)),
         ("mass", Unit::Gram.show(design.clutch.mass_kg(), 4)),
         ("drag, slow", slow.map_or_else(|_| none(), |p| Unit::NewtonMetre.show(p.state.drag_torque_nm, 3))),
-        ("lift-off, outer race", off.map_or_else(none, |speed| Unit::Rpm.show(speed, 4))),
+        (
+            if design.clutch.cage.is_some() { "lift-off, inner race" } else { "lift-off, outer race" },
+            off.map_or_else(none, |speed| Unit::Rpm.show(speed, 4)),
+        ),
     ]
 }
 

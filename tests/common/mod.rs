@@ -41,6 +41,7 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
         },
         running: None,
         spring: Spring { stiffness_nm_per_rad: 0.01, drag_torque_nm: 0.0166 },
+        cage: None,
         materials: Materials { sprag: steel, inner_race: steel, outer_race: steel },
         friction: Friction { static_: 0.12, kinetic: 0.09, decay_s_per_m: 5.0, outer_holds: false },
         lubrication: None,

@@ -3,6 +3,7 @@
 #[path = "../common/program.rs"]
 mod program;
 
+mod driven_cage;
 mod feed;
 mod life;
 mod lubrication;

@@ -158,7 +158,8 @@ pub struct CheckBody {
     asked_nm: f64,
     #[serde(skip)]
     materials: Vec<String>,
-    /// Speed at which the sprags lift off the inner race, rev/min; null: contact is kept up to `lift_off_searched_to_rpm`.
+    /// Speed of the outer race at which the sprags lift off the inner one, rev/min, in a driven cage of the inner race at which they lift off
+    /// the outer one; null: contact is kept up to `lift_off_searched_to_rpm`.
     pub lift_off_rpm: Option<f64>,
     /// How far a lift-off was looked for, rev/min.
     pub lift_off_searched_to_rpm: f64,

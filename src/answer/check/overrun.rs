@@ -2,6 +2,7 @@
 
 use crate::answer::overrun::usual_speeds_rad_s;
 use crate::design::{Design, Limits};
+use crate::dynamics::CageFacts;
 use crate::follow::Follow;
 use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
@@ -34,7 +35,8 @@ impl Design {
         let lift_off_rad_s = lift_off_rad_s(self, state, LIFT_OFF_TO_RAD_S);
         let up_to = up_to_rad_s(&self.limits, lift_off_rad_s, self.clutch.races.outer_radius_m);
         let course = curve(self, state, up_to, lift_off_rad_s, follow)?;
-        Ok((OverrunSection::new(&course, named(self, state), self), lift_off_rad_s))
+        let cage = CageSection::of(self, state);
+        Ok((OverrunSection::new(&course, named(self, state), self, cage), lift_off_rad_s))
     }
 }
 
@@ -74,7 +76,9 @@ fn curve(
 /// Whether the design names a speed of the outer race: in a limit or in a scene.
 pub(in crate::answer) fn outer_turns(design: &Design) -> bool {
     let limits = &design.limits;
-    let asked = [limits.keep_contact_to_rad_s, limits.lift_off_by_rad_s].into_iter().flatten();
+    // In a driven cage they are speeds of the inner one.
+    let of_limits = [limits.keep_contact_to_rad_s, limits.lift_off_by_rad_s];
+    let asked = of_limits.into_iter().flatten().filter(|_| design.clutch.cage.is_none());
     // An infinite mean speed stands for a history.
     asked.chain(design.scenarios.iter().map(|s| s.mean_speed_rad_s())).any(|speed| speed != 0.0)
 }
@@ -88,7 +92,7 @@ fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
     ];
     let by_limit = by_limit.into_iter().filter_map(|(key, speed)| {
         let speed = speed.filter(|speed| *speed > 0.0)?;
-        Some((key.to_owned(), [-speed, speed]))
+        Some((key.to_owned(), design.clutch.overrun_of_carrier(speed)))
     });
     let by_limit = by_limit.map(|(by, speeds)| (by, speeds, true, false));
     let by_scene = design
@@ -96,7 +100,7 @@ fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
         .iter()
         .filter_map(|s| Some((s.name.clone(), s.kind.overrun_rad_s()?, s.kind.is_overrun(), true)));
     let one = |(by, [ahead, outer], lasts, by_scene): (String, [f64; 2], bool, bool)| {
-        let point = overrun_at(design, state, outer, ahead.abs()).ok()?;
+        let point = overrun_at(design, state, outer, ahead).ok()?;
         Some(NamedOverrun {
             by,
             outer_rpm: Unit::Rpm.from_si(outer),
@@ -104,7 +108,7 @@ fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
             drag_torque_nm: point.state.drag_torque_nm,
             growth_rate_per_s: point.swing.map(|s| s.growth_rate_per_s),
             swing_frequency_hz: point.swing.map(|s| s.frequency_hz),
-            lifted_off: point.state.normal_inner_n <= 0.0,
+            lifted_off: point.state.sliding_n <= 0.0,
             lasts,
             by_scene,
         })
@@ -133,14 +137,14 @@ pub struct OverrunRow {
     pub normal_inner_n: f64,
     /// The same at the outer contact, N.
     pub normal_outer_n: f64,
-    /// Coefficient of friction of the inner contact at that speed.
+    /// Coefficient of friction of the sliding contact at that speed: the inner one, in a driven cage the outer one.
     pub friction: f64,
     /// Growth of a small swing of the sprags about the equilibrium, 1/s; positive: the equilibrium does not stay; null where
     /// they are off or nothing slides.
     pub growth_rate_per_s: Option<f64>,
     /// Frequency of that swing, Hz.
     pub swing_frequency_hz: Option<f64>,
-    /// Whether the sprags are off the inner race.
+    /// Whether the sprags are off the race that they slide on.
     pub lifted_off: bool,
     /// Growth of the outer track by rotation, um.
     pub outer_race_growth_um: f64,
@@ -163,7 +167,7 @@ pub struct NamedOverrun {
     pub growth_rate_per_s: Option<f64>,
     /// Frequency of that swing, Hz.
     pub swing_frequency_hz: Option<f64>,
-    /// Whether the sprags are off the inner race.
+    /// Whether the sprags are off the race that they slide on.
     pub lifted_off: bool,
     /// Whether it is steady; an engagement only begins so.
     #[serde(skip)]
@@ -196,11 +200,43 @@ impl NamedOverrun {
 /// Overruns that a line has room for.
 const NAMED: usize = 4;
 
+/// Sprags that a cage carries with the inner race.
+#[derive(Debug, Clone, Serialize)]
+pub struct CageSection {
+    /// The race that they ride with, whose speed `lift_off_rpm` and the limits mean.
+    pub rides_with: &'static str,
+    /// Radius of the pivot, mm.
+    pub pivot_radius_mm: f64,
+    /// Azimuth of the pivot ahead of the centroid, deg; below 0 the centrifugal force lifts the sprags off the outer race.
+    pub pivot_ahead_of_centroid_deg: f64,
+    /// By which part lift-off comes later at most, where the inner race and not the cage took the sprags along while the drag was measured.
+    pub lift_off_later_at_most: f64,
+    /// Whether the sprags come back to the outer race at the speed of lift-off; else at a lower one.
+    pub comes_back_there: bool,
+}
+
+impl CageSection {
+    fn of(design: &Design, state: &LoadState) -> Option<Self> {
+        let clutch = &design.clutch;
+        let facts = CageFacts::of(clutch, clutch.cage.as_ref()?, &state.curve, state.alpha_max_rad);
+        Some(Self {
+            rides_with: "inner",
+            pivot_radius_mm: Unit::Millimetre.from_si(facts.pivot_radius_m),
+            pivot_ahead_of_centroid_deg: Unit::Degree.from_si(facts.ahead_of_centroid_rad),
+            lift_off_later_at_most: facts.lift_off_higher,
+            comes_back_there: facts.opens_softly,
+        })
+    }
+}
+
 /// `overrun` of the JSON.
 #[derive(Debug, Clone, Serialize)]
 pub struct OverrunSection {
     /// What the centrifugal force does to the sprags: `engaging`, `disengaging` or `neutral`.
     pub centrifugal: &'static str,
+    /// What is otherwise where the design has a driven cage.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cage: Option<CageSection>,
     /// Azimuth of the outer contact arc's centre ahead of the centroid at first contact at rest, deg; positive: engaging at
     /// speed.
     pub gamma_deg: f64,
@@ -288,7 +324,12 @@ fn passing(points: &[&OverrunRow]) -> Option<String> {
 }
 
 impl OverrunSection {
-    pub(super) fn new(curve: &OverrunCurve, named: Vec<NamedOverrun>, design: &Design) -> Self {
+    pub(super) fn new(
+        curve: &OverrunCurve,
+        named: Vec<NamedOverrun>,
+        design: &Design,
+        cage: Option<CageSection>,
+    ) -> Self {
         let limits = &design.limits;
         let row = |race: &'static str, p: &OverrunPoint| OverrunRow {
             race,
@@ -299,7 +340,7 @@ impl OverrunSection {
             friction: p.friction,
             growth_rate_per_s: p.swing.map(|s| s.growth_rate_per_s),
             swing_frequency_hz: p.swing.map(|s| s.frequency_hz),
-            lifted_off: p.state.normal_inner_n <= 0.0,
+            lifted_off: p.state.sliding_n <= 0.0,
             outer_race_growth_um: Unit::Micrometre.from_si(p.growth_m),
             rotation_hoop_outer_mpa: Unit::Megapascal.from_si(p.rotation_hoop_pa),
         };
@@ -313,7 +354,7 @@ impl OverrunSection {
         let on_film = curve.inner_race.iter().any(|p| p.lubricated.is_some());
         let warning = warning(&named, &looked_at, limits, on_film);
         Self {
-            centrifugal: match curve.gamma_rad {
+            centrifugal: match cage.as_ref().map_or(curve.gamma_rad, |c| c.pivot_ahead_of_centroid_deg) {
                 g if g > 0.0 => "engaging",
                 g if g < 0.0 => "disengaging",
                 _ => "neutral",
@@ -321,6 +362,7 @@ impl OverrunSection {
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
             on_film,
+            cage,
             passing: if warning.is_none() { passing(&looked_at) } else { None },
             warning,
             outer_race_turns: turns,
@@ -342,9 +384,20 @@ impl OverrunSection {
         if self.named.len() > NAMED {
             named.push(format!("; {} more: --json", self.named.len() - NAMED));
         }
+        let film = if self.on_film { " on a film of oil (`overrun` says more)" } else { "" };
+        if let Some(cage) = &self.cage {
+            return format!(
+                "Overrun{film}: drag {slow} when slow{}; the cage carries the sprags with the inner race, they slide on the outer one, and \
+                 the centrifugal force is {} (the pivot lies {:.3} deg {} the centroid); whether a swing of the sprags grows is not \
+                 looked at",
+                named.concat(),
+                self.centrifugal,
+                cage.pivot_ahead_of_centroid_deg.abs(),
+                if cage.pivot_ahead_of_centroid_deg < 0.0 { "behind" } else { "ahead of" },
+            );
+        }
         format!(
-            "Overrun{}: drag {slow} when slow{}; {} {} (gamma {:.3} deg: the centroid lies {} the sprag's outer centre)",
-            if self.on_film { " on a film of oil (`overrun` says more)" } else { "" },
+            "Overrun{film}: drag {slow} when slow{}; {} {} (gamma {:.3} deg: the centroid lies {} the sprag's outer centre)",
             named.concat(),
             match self.outer_race_turns {
                 true => "the centrifugal force is",
@@ -362,6 +415,27 @@ impl OverrunSection {
 
     /// Where the sprags lift off, if they do up to `searched_to_rpm`.
     pub(super) fn lift_off_remark(&self, lift_off_rpm: Option<f64>, searched_to_rpm: f64) -> String {
+        if let Some(cage) = &self.cage {
+            let Some(rpm) = lift_off_rpm else {
+                return format!(
+                    "Sprags keep contact with the outer race up to {searched_to_rpm:.0} rpm of the inner race at least"
+                );
+            };
+            return format!(
+                "Sprags lift off the outer race at {rpm:.0} rpm of the inner race, the overrun speed not to be fallen below for long{}{}",
+                match cage.comes_back_there {
+                    true => "; they come back at the same",
+                    false => "; they open at once as far as the cage lets them, and come back at a lower one",
+                },
+                match cage.lift_off_later_at_most {
+                    later if later >= 0.005 => format!(
+                        "; up to {} later if the inner race, not the cage, took them along while the drag was measured",
+                        Unit::Percent.show(later, 2)
+                    ),
+                    _ => String::new(),
+                }
+            );
+        }
         let why = match self.centrifugal {
             "engaging" => {
                 ": the outer race grows with speed, the sprags turn on, and the centrifugal force changes its sense"
@@ -410,7 +484,13 @@ impl OverrunSection {
             .number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4, |p| p.drag_torque_nm)
             .number("normal_inner_n", "Normal force at A", Unit::Newton, 4, |p| p.normal_inner_n)
             .number("normal_outer_n", "Normal force at B", Unit::Newton, 4, |p| p.normal_outer_n)
-            .number("friction", "Friction at A", Unit::One, 4, |p| p.friction)
+            .number(
+                "friction",
+                if self.cage.is_some() { "Friction at B" } else { "Friction at A" },
+                Unit::One,
+                4,
+                |p| p.friction,
+            )
             .number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4, |p| p.growth_rate_per_s)
             .number("swing_frequency_hz", "Swing, Hz", Unit::One, 4, |p| p.swing_frequency_hz)
             .number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4, |p| {

@@ -41,12 +41,28 @@ pub(super) fn overrun(
         drag = drag.curve("outer race runs", of("outer", |p| p.drag_torque_nm));
     }
     let drag = drag.curve("inner race runs", of("inner", |p| p.drag_torque_nm));
-    let forces = Plot::new("Speed of the outer race, rpm", "Normal force of one sprag, N")
-        .curve("at A", of("outer", |p| p.normal_inner_n))
-        .curve("at B", of("outer", |p| p.normal_outer_n));
+    let caged = section.cage.is_some();
+    let rides_with = if caged { "inner" } else { "outer" };
+    let forces = Plot::new(&format!("Speed of the {rides_with} race, rpm"), "Normal force of one sprag, N")
+        .curve("at A", of(rides_with, |p| p.normal_inner_n))
+        .curve("at B", of(rides_with, |p| p.normal_outer_n));
     let growth = Plot::new("Speed of the outer race, rpm", "Growth of the outer track, µm")
         .curve("growth, (7)", of("outer", |p| p.outer_race_growth_um));
     page.heading("Overrun").paragraph(&greek(&format!("{}.", section.remark())));
+    if caged {
+        page.paragraph(
+            "The cage carries the sprags with the inner race, and they slide on the outer one. Once the cage bears \
+             their centrifugal force, it tilts them about their pivots, off the outer race if the pivot lies behind the centroid. Where only the outer race runs they are at rest.",
+        );
+        page.figures(&[
+            (marked(drag), "Drag torque of the whole clutch: friction at the outer contacts."),
+            (marked(forces), "Contact forces of one sprag; 0 at A: the cage bears it; 0 at B: lifted off."),
+        ]);
+        page.apart("Overrun over speed as a table", |page| {
+            page.table(LEFT_OUT, &section.short_table());
+        });
+        return;
+    }
     page.paragraph(
         "The sprags ride with the outer race. Where it stands and the inner race runs they are at rest; where it runs, \
          the centrifugal force presses them in (engaging) or lifts them off the inner race (disengaging). Where \

@@ -30,7 +30,7 @@ fn source(lift_off_rad_s: Option<f64>) -> Source {
         asked_nm: 110.0,
         lift_off_rad_s,
         searched_to_rad_s: 100.0,
-        overrun: OverrunSection::new(&curve, Vec::new(), &design),
+        overrun: OverrunSection::new(&curve, Vec::new(), &design, None),
         running: None,
         run_out: None,
     }

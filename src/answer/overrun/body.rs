@@ -34,7 +34,7 @@ pub struct SlipBody {
 pub struct OverrunBody<'a> {
     /// Roughness of both surfaces together, Rq, um.
     pub composite_roughness_um: f64,
-    /// Speed of the outer race at which the sprags lift off, rev/min; null: they do not.
+    /// Speed of the outer race, in a driven cage of the inner one, at which the sprags lift off, rev/min; null: they do not.
     pub lift_off_rpm: Option<f64>,
     /// Each speed at each temperature.
     pub lines: Rows<&'a OverrunLine>,

@@ -28,7 +28,7 @@ pub enum RunningRace {
     /// The inner race, past sprags that stand.
     #[default]
     Inner,
-    /// The outer race, and the sprags with it: they feel their centrifugal force.
+    /// The outer race, and the sprags with it unless a cage carries them with the inner one: they feel their centrifugal force.
     Outer,
 }
 
@@ -87,7 +87,8 @@ pub struct OverrunAnswer<'a> {
     pub lines: Vec<OverrunLine>,
     /// Fit and gap as the file has them.
     pub filed: WarmClutch,
-    /// Lift-off of the outer race, rad/s: it does not depend on friction, which ends with the force at A.
+    /// Speed of the race that the sprags ride with at which they lift off, rad/s: it does not depend on friction, which ends with the
+    /// force at the sliding contact.
     pub lift_off_rad_s: Option<f64>,
     /// The slip that the file asks for.
     pub slip: Option<SlipEffect>,
@@ -141,8 +142,13 @@ pub(super) fn usual_speeds_rad_s() -> impl Iterator<Item = f64> {
 }
 
 impl Design {
-    /// Speeds of `race` in steady overruns that the design names, in scenarios and, of the outer race, in limits, rad/s; those of
-    /// engagements, which only begin so, too.
+    /// The race that the sprags ride with in overrun.
+    pub(super) fn sprags_ride_with(&self) -> RunningRace {
+        if self.clutch.cage.is_some() { RunningRace::Inner } else { RunningRace::Outer }
+    }
+
+    /// Speeds of `race` in steady overruns that the design names, in scenarios and, of the race that the sprags ride with, in limits,
+    /// rad/s; those of engagements, which only begin so, too.
     fn named_speeds_rad_s(&self, race: RunningRace) -> Vec<f64> {
         let of_scenes = self.scenarios.iter().filter_map(|s| match (s.kind.overrun_rad_s()?, race) {
             ([ahead, 0.0], RunningRace::Inner) => Some(ahead),
@@ -151,7 +157,7 @@ impl Design {
         });
         let limits = [self.limits.keep_contact_to_rad_s, self.limits.lift_off_by_rad_s];
         let of_limits =
-            limits.into_iter().flatten().filter(|speed| race == RunningRace::Outer && *speed > 0.0);
+            limits.into_iter().flatten().filter(|speed| self.sprags_ride_with() == race && *speed > 0.0);
         of_scenes.chain(of_limits).collect()
     }
 
@@ -172,8 +178,8 @@ impl Design {
             question.temperatures_c.push(lubrication.temperature_c);
         }
         if question.speeds_rad_s.is_empty() {
-            let track = self.clutch.races.inner_radius_m;
-            let lift = lift_off.filter(|_| question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
+            let track = self.clutch.sliding_track_m();
+            let lift = lift_off.filter(|_| question.race == self.sprags_ride_with()).unwrap_or(f64::INFINITY);
             let usual = usual_speeds_rad_s();
             named = self.named_speeds_rad_s(question.race);
             let all = usual.chain(named.iter().copied()).filter(|w| *w < lift && *w * track <= FASTEST_M_S);
@@ -225,8 +231,11 @@ impl OilAt {
     }
 
     fn line(&self, state: &LoadState, race: RunningRace, speed_rad_s: f64) -> Result<OverrunLine, NoMargins> {
-        let outer = if race == RunningRace::Outer { speed_rad_s } else { 0.0 };
-        let at = |design: &Design| overrun_at(design, state, outer, speed_rad_s).map_err(NoMargins::Curve);
+        let [outer, ahead] = match race {
+            RunningRace::Outer => [speed_rad_s, -speed_rad_s],
+            RunningRace::Inner => [0.0, speed_rad_s],
+        };
+        let at = |design: &Design| overrun_at(design, state, outer, ahead).map_err(NoMargins::Curve);
         let (point, dry) = (at(&self.wet)?, at(&self.dry)?);
         let wear = hourly_wear(&self.wet, &point);
         Ok(OverrunLine { oil_c: self.oil_c, speed_rad_s, point, dry, wear, warm: None })

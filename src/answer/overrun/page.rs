@@ -2,7 +2,7 @@
 
 use super::super::page::half;
 use super::tables::OverrunPart;
-use super::{OilAt, OverrunAnswer, OverrunLine, RunningRace};
+use super::{OilAt, OverrunAnswer, OverrunLine};
 use crate::report::plot::{Curve, Dash};
 use crate::report::{Page, Plot, Unit, significant};
 
@@ -35,7 +35,14 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
     let warmth = plot("Film temperature, °C", |l| l.point.lubricated.map(|f| f.film_c));
     page.figures(&[
         (half(drag), "Drag of all sprags; dotted: by the friction law (12) alone."),
-        (half(friction), "Stribeck curve of the inner contact, at the load that the sprags settle at."),
+        (
+            half(friction),
+            if answer.slides_outside() {
+                "Stribeck curve of the outer contact, at the load that the sprags settle at."
+            } else {
+                "Stribeck curve of the inner contact, at the load that the sprags settle at."
+            },
+        ),
         (
             half(lambda),
             "Thickness of the film over the roughness of both surfaces; above 3 asperities hardly touch.",
@@ -74,8 +81,10 @@ fn curves(answer: &OverrunAnswer<'_>) -> Vec<(String, Vec<OverrunLine>)> {
     if high <= 0.0 {
         return Vec::new();
     }
-    let end =
-        answer.lift_off_rad_s.filter(|_| answer.question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
+    let end = answer
+        .lift_off_rad_s
+        .filter(|_| answer.question.race == answer.design.sprags_ride_with())
+        .unwrap_or(f64::INFINITY);
     let low = low.min(0.1 * high);
     let at = |i: usize| low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
     let one = |&oil_c: &f64| {

@@ -21,27 +21,30 @@ const UNFITTED: &[&str] = &["oil_c", "speed_rpm", "warm_gap_mm", "warm_first_tan
 
 type Lines<'a> = Rows<&'a OverrunLine>;
 
-fn with_film(rows: Lines<'_>) -> Lines<'_> {
-    rows.number("normal_inner_n", "N at A", Unit::Newton, 4, |l| l.point.state.normal_inner_n)
-        .number("film_um", "Film", Unit::Micrometre, 3, |l| {
-            l.point.lubricated.map(|f| f.film.film.thickness_m)
-        })
-        .number("lambda", "λ", Unit::One, 3, |l| l.point.lubricated.map(|f| f.film.lambda))
-        .text("regime", "Regime", |l| l.point.lubricated.map(|f| f.film.film.regime.name()))
-        .number("asperity_share", "By asperities", Unit::One, 3, |l| {
-            l.point.lubricated.map(|f| f.film.asperities)
-        })
-        .shown_in(Unit::Percent)
-        .number("friction", "μ", Unit::One, 3, |l| {
-            Cell::only_if(l.point.lubricated.is_some(), l.point.friction)
-        })
-        .number("friction_dry", "μ by (12)", Unit::One, 3, |l| l.dry.friction)
-        .number("drag_torque_nm", "Drag", Unit::NewtonMetre, 3, |l| l.point.state.drag_torque_nm)
-        .number("drag_torque_dry_nm", "Drag by (12)", Unit::NewtonMetre, 3, |l| l.dry.state.drag_torque_nm)
-        .json("lifted_off", |l| l.point.state.normal_inner_n <= 0.0)
-        .json("moes_load", |l| l.point.lubricated.and_then(|f| f.film.film.load))
-        .json("moes_lubricant", |l| l.point.lubricated.map(|f| f.film.film.lubricant))
-        .json("nahme", |l| l.point.lubricated.map(|f| f.film.shear.nahme))
+fn with_film(rows: Lines<'_>, slides_outside: bool) -> Lines<'_> {
+    let rows = match slides_outside {
+        true => rows
+            .number("normal_outer_n", "N at B", Unit::Newton, 4, |l| l.point.state.normal_outer_n)
+            .hidden("normal_inner_n", Unit::Newton, |l| l.point.state.normal_inner_n),
+        false => rows.number("normal_inner_n", "N at A", Unit::Newton, 4, |l| l.point.state.normal_inner_n),
+    };
+    rows.number("film_um", "Film", Unit::Micrometre, 3, |l| {
+        l.point.lubricated.map(|f| f.film.film.thickness_m)
+    })
+    .number("lambda", "λ", Unit::One, 3, |l| l.point.lubricated.map(|f| f.film.lambda))
+    .text("regime", "Regime", |l| l.point.lubricated.map(|f| f.film.film.regime.name()))
+    .number("asperity_share", "By asperities", Unit::One, 3, |l| {
+        l.point.lubricated.map(|f| f.film.asperities)
+    })
+    .shown_in(Unit::Percent)
+    .number("friction", "μ", Unit::One, 3, |l| Cell::only_if(l.point.lubricated.is_some(), l.point.friction))
+    .number("friction_dry", "μ by (12)", Unit::One, 3, |l| l.dry.friction)
+    .number("drag_torque_nm", "Drag", Unit::NewtonMetre, 3, |l| l.point.state.drag_torque_nm)
+    .number("drag_torque_dry_nm", "Drag by (12)", Unit::NewtonMetre, 3, |l| l.dry.state.drag_torque_nm)
+    .json("lifted_off", |l| l.point.state.sliding_n <= 0.0)
+    .json("moes_load", |l| l.point.lubricated.and_then(|f| f.film.film.load))
+    .json("moes_lubricant", |l| l.point.lubricated.map(|f| f.film.film.lubricant))
+    .json("nahme", |l| l.point.lubricated.map(|f| f.film.shear.nahme))
 }
 
 fn with_heat(rows: Lines<'_>) -> Lines<'_> {
@@ -100,14 +103,15 @@ impl OverrunAnswer<'_> {
 
     /// A part of it.
     pub fn part(&self, part: OverrunPart) -> Table {
-        let with = match part {
-            OverrunPart::Film => with_film,
-            OverrunPart::Heat => with_heat,
-            OverrunPart::Warm => with_warm,
-            OverrunPart::Swing => with_swing,
+        let rows = self.oil_and_speed();
+        let rows = match part {
+            OverrunPart::Film => with_film(rows, self.slides_outside()),
+            OverrunPart::Heat => with_heat(rows),
+            OverrunPart::Warm => with_warm(rows),
+            OverrunPart::Swing => with_swing(rows),
         };
         // Oil and speed say what a row is.
-        let table = Table { lead: 2, ..with(self.oil_and_speed()).table() };
+        let table = Table { lead: 2, ..rows.table() };
         let fitted = |l: &OverrunLine| l.warm.is_some_and(|w| w.joint_pa != [0.0; 2]);
         match part == OverrunPart::Warm && !self.lines.iter().any(fitted) {
             true => table.only(UNFITTED),
@@ -117,6 +121,6 @@ impl OverrunAnswer<'_> {
 
     /// All of it.
     pub fn all(&self) -> Rows<&OverrunLine> {
-        with_swing(with_warm(with_heat(with_film(self.oil_and_speed()))))
+        with_swing(with_warm(with_heat(with_film(self.oil_and_speed(), self.slides_outside()))))
     }
 }

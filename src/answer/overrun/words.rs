@@ -8,8 +8,25 @@ use crate::report::{Unit, significant};
 /// What overrun on a film leaves out.
 pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
     let new = LeftOut::new;
-    vec![
-        riding_inside(answer),
+    let along = || {
+        new(
+            "force along the track at the inner contact of sprags in a driven cage",
+            "the cage takes them along, as fast as the race",
+            "at most static friction times the normal force at A, none once that has ended",
+        )
+    };
+    let swing = || {
+        new(
+            "swing of the sprags in a driven cage",
+            "their equations of motion have sprags that ride with the outer race",
+            "not estimated: where friction falls with speed a swing may grow",
+        )
+    };
+    let mut all = match answer.slides_outside() {
+        true => vec![along(), swing()],
+        false => vec![riding_inside(answer)],
+    };
+    all.extend([
         new(
             "starvation",
             "inlets are full of oil",
@@ -30,7 +47,8 @@ pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
             "torsional, engaging and transient scenes keep the friction law (12)",
             "the film must be squeezed out first: some microseconds to a millisecond more of slip",
         ),
-    ]
+    ]);
+    all
 }
 
 /// Sprags that ride with the inner race and slide on the outer one. All normal forces and the centrifugal force go through the axis,
@@ -99,7 +117,7 @@ impl OverrunAnswer<'_> {
             || scenes
                 .filter_map(|s| s.kind.overrun_rad_s())
                 .any(|[ahead, outer_speed]| near(if outer { outer_speed } else { ahead }))
-            || outer && limits.into_iter().flatten().any(near)
+            || self.design.sprags_ride_with() == self.question.race && limits.into_iter().flatten().any(near)
     }
 
     /// Where and how fast a swing grows most, at the speeds that are named, of none at all.
@@ -138,14 +156,14 @@ impl OverrunAnswer<'_> {
             significant(line.oil_c, 3)
         );
         let Some(film) = line.point.lubricated else {
-            return format!("{at}: the sprags are off the inner race, no drag and no heat");
+            return format!("{at}: the sprags are off the {} race, no drag and no heat", self.slides_on());
         };
         let swing = match growth(line) {
             Some(rate) => format!(
                 "NOT STABLE, a swing of the sprags grows tenfold in {}",
                 Unit::Second.show(std::f64::consts::LN_10 / rate, 2)
             ),
-            None => "stable".to_owned(),
+            None => self.no_swing().to_owned(),
         };
         format!(
             "{at}: λ {} ({}), {swing}; drag {}, heat {}",
@@ -161,6 +179,21 @@ impl OverrunAnswer<'_> {
         )
     }
 
+    /// Whether the sprags slide on the outer race.
+    pub(super) fn slides_outside(&self) -> bool {
+        self.design.clutch.cage.is_some()
+    }
+
+    /// The race that they slide on.
+    fn slides_on(&self) -> &'static str {
+        if self.slides_outside() { "outer" } else { "inner" }
+    }
+
+    /// What is said where no swing was found to grow.
+    fn no_swing(&self) -> &'static str {
+        if self.slides_outside() { "its swing not looked at" } else { "stable" }
+    }
+
     /// The same where no speed is named: from the least to the largest.
     fn over_all(&self) -> String {
         let films = || self.lines.iter().filter_map(|l| Some((l, l.point.lubricated?)));
@@ -169,8 +202,10 @@ impl OverrunAnswer<'_> {
             values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
         };
         if films().next().is_none() {
-            return "The sprags are off the inner race at all of these speeds: no drag and no heat"
-                .to_owned();
+            return format!(
+                "The sprags are off the {} race at all of these speeds: no drag and no heat",
+                self.slides_on()
+            );
         }
         let [slow, fast] = span(&|l| Some(l.speed_rad_s));
         let [thin, thick] = span(&|l| Some(l.point.lubricated?.film.lambda));
@@ -183,7 +218,7 @@ impl OverrunAnswer<'_> {
             Unit::Rpm.show(fast, 4),
             significant(thin, 3),
             significant(thick, 3),
-            self.swings().map_or("stable".to_owned(), |(l, _)| format!("NOT STABLE at {}", place(l))),
+            self.swings().map_or(self.no_swing().to_owned(), |(l, _)| format!("NOT STABLE at {}", place(l))),
             significant(least, 3),
             Unit::NewtonMetre.show(most, 3),
             Unit::Watt.show(heat_w, 3)
@@ -214,7 +249,7 @@ impl OverrunAnswer<'_> {
             "The {race} race runs, the {other} one stands (--race {other}: the other way); speeds: {of_file}{} usual ones \
              up to 50 m/s of the track{}; --speeds names others",
             if named.is_empty() { ", so" } else { "" },
-            if self.question.race == RunningRace::Outer { " and lift-off" } else { "" }
+            if self.question.race == self.design.sprags_ride_with() { " and lift-off" } else { "" }
         )
     }
 
@@ -235,8 +270,10 @@ impl OverrunAnswer<'_> {
         }
         all.push(match self.lift_off_rad_s {
             Some(w) => format!(
-                "Sprags lift off at {} of the outer race, whatever the oil: drag ends with the force at A",
-                Unit::Rpm.show(w, 4)
+                "Sprags lift off at {} of the {} race, whatever the oil: drag ends with the force at {}",
+                Unit::Rpm.show(w, 4),
+                self.design.sprags_ride_with().name(),
+                if self.slides_outside() { "B" } else { "A" }
             ),
             None => "The sprags do not lift off".to_owned(),
         });

@@ -12,16 +12,19 @@ use crate::wedge::WedgeCurve;
 pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
     let mut list = left_out_of(&scene.design);
     list.extend(scene.planned.iter().map(|t| LeftOut::new(t.term, &t.why, &t.cost)));
+    list.extend(driven_cage(scene));
     let mut add = |term: &str, why: &str, cost: &str| list.push(LeftOut::new(term, why, cost));
     let kind = &scene.scenario.kind;
     if !kind.is_at_rest() {
         let (term, why) = film(scene);
         add(term, why, "not estimated");
-        add(
-            "mass and friction of the cage",
-            "the cage is free and massless, the spring reacts on it",
-            "not estimated",
-        );
+        if scene.design.clutch.cage.is_none() {
+            add(
+                "mass and friction of the cage",
+                "the cage is free and massless, the spring reacts on it",
+                "not estimated",
+            );
+        }
     }
     if scene.method == "equilibrium" {
         list.extend(static_outer_force(scene));
@@ -109,6 +112,25 @@ fn touch(damping: f64) -> String {
         "velocities are continuous at touch; the damping of the contacts leaves a rebound of {} of an impact of 0.1 m/s",
         Unit::Percent.show(1.0 - 2.0 / 3.0 * damping * 0.1, 1)
     )
+}
+
+/// What a scene leaves out of a cage that the inner race drives.
+fn driven_cage(scene: &Ran) -> Option<LeftOut> {
+    let cage = scene.scenario.clutch.cage.filter(|_| !scene.scenario.kind.is_at_rest());
+    let (_, (prepared, _)) = cage.zip(scene.outcome.as_ref().ok())?;
+    let model = &prepared.model;
+    let spring = &scene.scenario.clutch.spring;
+    let spring_nm =
+        scene.scenario.clutch.sprags.count as f64 * spring.stiffness_nm_per_rad * model.alpha_max_rad.abs();
+    Some(LeftOut::new(
+        "what the driven cage does to the sprags",
+        "its inertia is the inner race's; its pockets leave sprags under load their play, and the spring reacts as on a free cage",
+        &format!(
+            "at most {} of the clutch while A carries; once A opens the sprags of this run ride with the outer race, what follows then \
+             does not hold",
+            Unit::NewtonMetre.show(spring_nm, 2)
+        ),
+    ))
 }
 
 /// Why a run in steady overrun settles beside the equilibrium, and by how much ([`crate::dynamics::swing()`]).

@@ -1,0 +1,96 @@
+//! `[cage]` as written, and the same in SI.
+//!
+//! In: TOML text, races and sprags as run. Out: [`Cage`]; refused scenarios. Absent: what the cage does (`dynamics`).
+//! Equations: none of its own; azimuths at first contact are those of `profile`. The doc comments are the schema's
+//! descriptions.
+
+use super::design_file::DesignFile;
+use super::findings::Findings;
+use super::geometry::mm;
+use crate::clutch::{Cage, Races, Scenario, Sprags};
+use crate::design::m;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A cage that turns with the inner race and carries the sprags round, as in clutches whose sprags lift off the outer race once the
+/// inner one runs fast. Its pockets leave them the play that they need under load.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CageFile {
+    /// The race that the cage is fixed to.
+    #[serde(rename = "driven_by")]
+    pub _driven_by: DriverFile,
+    /// The point of a sprag at which the cage takes it along and keeps it from going outward, and about which it tilts.
+    pub pivot: PivotFile,
+    /// Inertia of the cage, kg m^2, beside races.inner_inertia_kg_m2; absent: 0.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0))]
+    pub inertia_kg_m2: f64,
+}
+
+/// What drives a cage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum DriverFile {
+    InnerRace,
+}
+
+/// A point of a sprag in its body frame, mm.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PivotFile {
+    /// x, towards positive azimuth, mm.
+    pub x_mm: f64,
+    /// y, radially outward from C_e, mm.
+    pub y_mm: f64,
+}
+
+/// The cage in SI. Refused where turning the sprag closed about its pivot would not press it on both races: N_B acts along OC_e
+/// and N_A along OC_1, so P lies between these lines, and between the tracks.
+pub(super) fn cage(file: &CageFile, races: &Races, sprags: &Sprags, out: &mut Findings) -> Option<Cage> {
+    let profile = sprags.profile(races).ok()?;
+    let [x, y] = [m(file.pivot.x_mm), profile.outer_centre_distance_m + m(file.pivot.y_mm)];
+    let (radius, azimuth) = (x.hypot(y), x.atan2(y));
+    if !(azimuth > 0.0 && azimuth < profile.beta0_rad) {
+        let most = radius * profile.beta0_rad.sin();
+        out.refuse(
+            &["cage.pivot.x_mm", "cage.pivot.y_mm", "cage"],
+            format!("above 0 and below {} mm: between the lines from the axis to C_e and to C_1", mm(most)),
+            "move the pivot: a sprag that turns closed about it has to press on both races".to_owned(),
+        );
+        return None;
+    }
+    if !(radius > races.inner_radius_m && radius < races.outer_radius_m) {
+        let [low, high] =
+            [races.inner_radius_m, races.outer_radius_m].map(|r| mm(r - profile.outer_centre_distance_m));
+        out.refuse(
+            &["cage.pivot.y_mm", "cage.pivot.x_mm", "cage"],
+            format!("between about {low} and {high} mm: a pivot between the tracks"),
+            "give the pivot from C_e, positive outward".to_owned(),
+        );
+        return None;
+    }
+    Some(Cage { pivot_m: [m(file.pivot.x_mm), m(file.pivot.y_mm)] })
+}
+
+/// Refuse scenes that are or begin in overrun, or whose torque turns round: their equations have sprags that ride with the outer race.
+pub(super) fn scenes(file: &DesignFile, scenarios: &[Scenario], out: &mut Findings) {
+    if file.cage.is_none() {
+        return;
+    }
+    let overruns = |s: &Scenario| s.lets_go() || s.kind.overrun_rad_s().is_some();
+    for (i, scenario) in scenarios.iter().enumerate().filter(|(_, s)| overruns(s)) {
+        let [kind, overrun, torque] =
+            ["kind", "overrun_rpm", "torque_history_csv"].map(|key| format!("scenarios[{i}].{key}"));
+        let key = [&overrun, &torque].into_iter().find(|key| out.has(key));
+        let keys: Vec<&str> = key.into_iter().chain([&kind]).map(String::as_str).chain(["cage"]).collect();
+        out.refuse(
+            &keys,
+            "with [cage] scenes that begin under load and stay engaged: in overrun their sprags would ride with the outer race".to_owned(),
+            format!(
+                "remove scenario {:?}; `check` and, with [lubrication], `overrun` look at steady overrun with the cage",
+                scenario.name
+            ),
+        );
+    }
+}

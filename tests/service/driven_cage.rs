@@ -1,0 +1,253 @@
+//! A cage that the inner race drives: forces in overrun against an independent solution, lift-off, balances, limits, refusals.
+
+use crate::program::*;
+use sprag_design::Design;
+use sprag_design::answer::overrun::{OverrunQuestion, RunningRace};
+use sprag_design::dynamics::CageFacts;
+use sprag_design::element::{Beginning, Element, Settings};
+use sprag_design::margin::{LoadState, lift_off_rad_s, load_state, overrun_at};
+use std::f64::consts::PI;
+
+const FILE: &str = "designs/lift-off-inner.toml";
+/// Of `tests/reference/driven_cage.py`, which prints it.
+const LIFT_OFF_RPM: f64 = 826.580026;
+
+fn text(changes: &[(&str, &str)]) -> String {
+    let mut text = std::fs::read_to_string(FILE).unwrap();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    text
+}
+
+fn changed(changes: &[(&str, &str)]) -> (Design, LoadState) {
+    let design = Design::parse(&text(changes), FILE).unwrap_or_else(|error| panic!("{error}"));
+    let state = load_state(&design).unwrap();
+    (design, state)
+}
+
+/// Coulomb friction of 0.1, no oil.
+const DRY: [(&str, &str); 2] = [
+    (
+        "static = 0.11\nkinetic = 0.09\ndecay_s_per_m = 5.0",
+        "static = 0.1\nkinetic = 0.1\ndecay_s_per_m = 0.0",
+    ),
+    (
+        "[lubrication]\noil = \"ISO VG 32\"\ntemperature_c = 50.0\nrace_roughness_um = 0.3\nsprag_roughness_um = 0.3\n",
+        "",
+    ),
+];
+
+/// What a command says.
+fn text_of(output: &std::process::Output) -> String {
+    stdout(output) + &String::from_utf8_lossy(&output.stderr)
+}
+
+fn rad_s(rpm: f64) -> f64 {
+    rpm * PI / 30.0
+}
+
+#[test]
+fn forces_and_lift_off_are_those_of_the_script() {
+    let (design, state) = changed(&DRY);
+    let lift = lift_off_rad_s(&design, &state, 1e4).unwrap();
+    // The script's bodies are rigid.
+    assert!((lift / rad_s(LIFT_OFF_RPM) - 1.0).abs() < 1e-6, "{}", lift * 30.0 / PI);
+    let table = std::fs::read_to_string("tests/reference/driven_cage.csv").unwrap();
+    let mut speeds = 0;
+    for line in table.lines().skip(1) {
+        let row: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        let found = overrun_at(&design, &state, 0.0, rad_s(row[0])).unwrap().state;
+        let near = |found: f64, want: f64| {
+            assert!((found - want).abs() < 1e-5 * 6.67, "at {} rpm: {found} instead of {want}", row[0]);
+        };
+        near(found.normal_inner_n, row[1]);
+        near(found.normal_outer_n, row[2]);
+        near(found.drag_torque_nm, row[3]);
+        speeds += 1;
+    }
+    assert_eq!(speeds, 10);
+}
+
+/// m_g OC_g OP sin(-pi) Omega^2 = M_s, and where the force at B ends.
+#[test]
+fn lift_off_in_closed_form_is_where_the_force_at_b_ends() {
+    for changes in [&DRY[..], &[]] {
+        let (design, state) = changed(changes);
+        let lift = lift_off_rad_s(&design, &state, 1e4).unwrap();
+        let [g, p] = [[1.55e-3, 0.0421], [0.15e-3, 0.0409]];
+        let closing = 0.05 * (state.alpha_max_rad - state.curve.touch().alpha.v);
+        let by_hand = (closing / (0.0195 * (p[1] * g[0] - p[0] * g[1]))).sqrt();
+        assert!((lift / by_hand - 1.0).abs() < 1e-5, "{lift} {by_hand}");
+        let force = |part: f64| overrun_at(&design, &state, 0.0, part * lift).unwrap().state;
+        let (below, nearer, beyond) = (force(1.0 - 1e-4), force(1.0 - 1e-5), force(1.0 + 1e-9));
+        assert!(below.sliding_n > nearer.sliding_n && nearer.sliding_n > 0.0, "{below:?} {nearer:?}");
+        assert_eq!([beyond.sliding_n, beyond.drag_torque_nm, beyond.normal_inner_n], [0.0; 3]);
+        // Then the cage bears all of the centrifugal force, nearly along the radius of the pivot.
+        let borne = beyond.cage_n[0].hypot(beyond.cage_n[1]);
+        let centrifugal = 0.0195 * g[0].hypot(g[1]) * lift * lift;
+        assert!((borne / centrifugal - 1.0).abs() < 1e-5, "{borne} {centrifugal}");
+    }
+}
+
+#[test]
+fn a_pivot_below_the_centroid_or_ahead_of_it_never_lets_go() {
+    // G at 0.1 mm, and the pivot on the line from the axis to it, then ahead.
+    let at = |x: &str| {
+        let g = ("centroid = { x_mm = 1.55, y_mm = 0.70 }", "centroid = { x_mm = 0.10, y_mm = 0.70 }");
+        changed(&[
+            g,
+            ("pivot = { x_mm = 0.15, y_mm = -0.50 }", &format!("pivot = {{ x_mm = {x}, y_mm = -0.50 }}")),
+        ])
+    };
+    for x in ["0.09714964370546318", "0.12"] {
+        let (design, state) = at(x);
+        assert_eq!(lift_off_rad_s(&design, &state, 6000.0), None, "{x}");
+        let force = |rad_s: f64| overrun_at(&design, &state, 0.0, rad_s).unwrap().state.normal_outer_n;
+        assert!(force(0.0) > 0.0 && force(3000.0) > 0.0);
+    }
+    let (design, state) = at("0.05");
+    assert!(lift_off_rad_s(&design, &state, 6000.0).is_some());
+}
+
+/// The speed that a tilt takes, with G turned about P in Cartesian coordinates, against what the first order says.
+#[test]
+fn a_sprag_that_tilts_softly_needs_more_speed_to_open_further() {
+    for (centroid, soft) in [([1.55, 0.70], true), ([0.35, -6.0], false), ([0.35, -1.0], true)] {
+        let g = format!("centroid = {{ x_mm = {}, y_mm = {} }}", centroid[0], centroid[1]);
+        let (design, state) = changed(&[("centroid = { x_mm = 1.55, y_mm = 0.70 }", &g)]);
+        let at = |tilt: f64| {
+            // Open is towards negative azimuth, x to the right, y out: counterclockwise.
+            let (sin, cos) = tilt.sin_cos();
+            let [x, y] = [centroid[0] - 0.15, centroid[1] + 0.50];
+            let g = [0.15 + cos * x - sin * y, 40.9 + sin * x + cos * y];
+            (state.alpha_max_rad + tilt) / (40.9 * g[0] - 0.15 * g[1])
+        };
+        assert_eq!(at(1e-4) > at(0.0), soft, "{centroid:?}");
+        let cage = design.clutch.cage.as_ref().unwrap();
+        let facts = CageFacts::of(&design.clutch, cage, &state.curve, state.alpha_max_rad);
+        assert_eq!(facts.opens_softly, soft, "{centroid:?}: {facts:?}");
+    }
+}
+
+/// Moments about the axis and heat, with the film.
+#[test]
+fn what_drags_the_outer_race_is_what_the_cage_takes_from_the_inner_one() {
+    let (design, state) = changed(&[]);
+    let op = 0.15e-3_f64.hypot(0.0409);
+    for rpm in [20.0, 200.0, 500.0, 700.0, 800.0] {
+        let point = overrun_at(&design, &state, 0.0, rad_s(rpm)).unwrap();
+        let s = point.state;
+        let spring = 0.05 * (state.alpha_max_rad - s.alpha_rad);
+        let by_cage = 18.0 * (s.cage_n[1] * op + spring);
+        assert!((by_cage / s.drag_torque_nm - 1.0).abs() < 1e-5, "{rpm}: {by_cage} {}", s.drag_torque_nm);
+        let film = point.lubricated.unwrap();
+        let heat = film.heat;
+        assert!((heat.heat_w / (s.drag_torque_nm * rad_s(rpm)) - 1.0).abs() < 1e-12);
+        assert!(heat.balance_error() < 1e-9);
+        // It is made at the outer race, and the inner one is farthest from it.
+        let t = heat.temperatures;
+        assert!(t.contact > t.outer_race && t.outer_race > t.inner_race && t.sprags > t.inner_race, "{t:?}");
+        // Convex in concave: r_e in R_e.
+        let radius = 1.0 / (1.0 / 8.6e-3 - 1.0 / 50e-3);
+        assert!((film.law.contact.radius_m / radius - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn slow_overrun_drags_as_the_file_says_and_standing_sprags_feel_no_force() {
+    let (design, state) = changed(&DRY);
+    let slow = overrun_at(&design, &state, 0.0, 0.0).unwrap();
+    assert!((slow.state.drag_torque_nm / 0.6 - 1.0).abs() < 1e-6, "{:?}", slow.state);
+    // The outer race alone runs: its track grows, nothing else changes.
+    let fast = rad_s(3000.0);
+    let outer = overrun_at(&design, &state, fast, -fast).unwrap();
+    assert!(outer.growth_m > 1e-7 && outer.speed_rad_s == fast);
+    assert!((outer.state.normal_outer_n / slow.state.normal_outer_n - 1.0).abs() < 0.02, "{:?}", outer.state);
+    // Both run, the inner one just ahead: off.
+    assert_eq!(overrun_at(&design, &state, fast, 1.0).unwrap().state.sliding_n, 0.0);
+}
+
+#[test]
+fn under_load_the_cage_is_its_inertia_alone() {
+    let (caged, with) = changed(&[]);
+    let table =
+        "[cage]\ndriven_by = \"inner-race\"\npivot = { x_mm = 0.15, y_mm = -0.50 }\ninertia_kg_m2 = 4.0e-4\n";
+    let (free, without) = changed(&[(table, "")]);
+    let races = |d: &Design| d.clutch.races.inner_inertia_kg_m2;
+    assert!((races(&caged) - races(&free) - 4e-4).abs() < 1e-15);
+    assert_eq!(with.curve.at_torque(700.0), without.curve.at_torque(700.0));
+    // What the pockets have to leave: the sprags roll on along the inner race by the integral of rho_i.
+    let (steps, alpha) = (1000, with.curve.closure_at_torque(700.0).unwrap().1.alpha.v);
+    let at = |i: usize| alpha * (i as f64 + 0.5) / steps as f64;
+    let rolled: f64 = (0..steps).map(|i| with.curve.in_arc(with.curve.arc_at(at(i)), at(i)).rho_i).sum();
+    let play = rolled * alpha / steps as f64 * 40.9;
+    println!("alpha {alpha} rad, play {play} mm");
+    assert!((1.0..3.0).contains(&play), "{play}");
+}
+
+#[test]
+fn what_would_have_other_sprags_is_refused() {
+    let scene = |lines: &str| {
+        text(&[("[[scenarios]]", &format!("[[scenarios]]\nname = \"free\"\n{lines}\n\n[[scenarios]]"))])
+    };
+    for (design, key, words) in [
+        (
+            scene("kind = \"overrun\"\nspeed_rpm = 0\noverrun_rpm = 500"),
+            "scenarios[0].overrun_rpm",
+            "begin under load",
+        ),
+        (
+            scene(
+                "kind = \"engagement\"\nfree_run_rpm = 100\nreversing_torque_nm = 100\nstop_stiffness_nm_per_rad = 1e5\nbench_inertia_kg_m2 = 0\nduration_s = 0.01",
+            ),
+            "scenarios[0].kind",
+            "begin under load",
+        ),
+        (text(&[("\"inner-race\"", "\"outer-race\"")]), "cage.driven_by", "inner-race"),
+        (text(&[("pivot = { x_mm = 0.15", "pivot = { x_mm = 0.40")]), "cage.pivot.x_mm", "between the lines"),
+        (text(&[("pivot = { x_mm = 0.15", "pivot = { x_mm = 0.0")]), "cage.pivot.x_mm", "above 0"),
+        (text(&[("y_mm = -0.50", "y_mm = 9.0")]), "cage.pivot.y_mm", "between the tracks"),
+        (text(&[("inertia_kg_m2 = 4.0e-4", "inertia_kg_m2 = -1")]), "cage.inertia_kg_m2", "0"),
+    ] {
+        let error = Design::parse(&design, FILE).expect_err(key).to_string();
+        assert!(error.contains(key) && error.contains(words), "{key}: {error}");
+    }
+    // Where only the run shows that A opens, it says so.
+    let swings = scene(
+        "kind = \"torsional-excitation\"\npreload_nm = 20\namplitude_nm = 100\nfrequency_hz = 100\n\
+         abutment_stiffness_nm_per_rad = 5000\nduration_s = 0.02",
+    );
+    let folder = Folder::new();
+    std::fs::write(folder.path("swings.toml"), swings).unwrap();
+    let opens = run(&["simulate", &folder.path("swings.toml"), "--scenario", "free"]);
+    assert!(
+        text_of(&opens).contains("ride with the outer race and not with the cage"),
+        "{}",
+        text_of(&opens)
+    );
+    let (design, _) = changed(&[]);
+    let refused = Element::new(&design.clutch, &Beginning::default(), &Settings::default()).unwrap_err();
+    assert!(refused.to_string().contains("[cage]"), "{refused}");
+    let feed = run(&["feed", FILE, "--stroke", "10", "--brake", "1"]);
+    assert!(!feed.status.success() && text_of(&feed).contains("[cage]"), "{}", text_of(&feed));
+}
+
+#[test]
+fn the_commands_say_which_race_is_meant() {
+    let (design, _) = changed(&[]);
+    let question = OverrunQuestion { speeds_rad_s: vec![rad_s(300.0), rad_s(900.0)], ..Default::default() };
+    let answer = design.overrun(&question).unwrap();
+    assert_eq!(answer.question.race, RunningRace::Inner);
+    let [on, off] = [0, 1].map(|i| answer.lines[i]);
+    assert!(on.wear.is_some() && on.point.swing.is_none() && off.point.lubricated.is_none());
+    assert!((answer.lift_off_rad_s.unwrap() / rad_s(LIFT_OFF_RPM) - 1.0).abs() < 1e-6);
+    let check = text_of(&run(&["check", FILE]));
+    for words in [
+        "lift off the outer race at 827 rpm of the inner race",
+        "none (the sprags are off) at 900 rpm of the inner race",
+    ] {
+        assert!(check.contains(words), "{check}");
+    }
+}
