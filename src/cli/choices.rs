@@ -53,7 +53,7 @@ choices! {
         "free-ends", Lengthwise::FreeEnds, "The same with free faces where a body ends (quarter-space correction)";
     }
     RunningRace {
-        "inner", RunningRace::Inner, "The inner race, past sprags that stand";
+        "inner", RunningRace::Inner, "The inner race, past sprags that stand, or with those that its cage carries";
         "outer", RunningRace::Outer, "The outer race, the sprags with it";
     }
 }

@@ -25,7 +25,7 @@ use serde_json::{Value, json};
 /// Which race runs; the other stands.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum RunningRace {
-    /// The inner race, past sprags that stand.
+    /// The inner race, past sprags that stand, or with those that its cage carries.
     #[default]
     Inner,
     /// The outer race, and the sprags with it unless a cage carries them with the inner one: they feel their centrifugal force.
@@ -133,7 +133,7 @@ pub const EXAMPLE: &str = "[lubrication]\noil = \"ISO VG 32\"          # `sprag-
 
 /// Speeds where none are asked for, rev/min.
 const USUAL_RPM: [f64; 10] = [5.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10_000.0];
-/// Speed of the track beyond which nobody runs such a clutch, m/s.
+/// Speed of the track beyond which nobody runs such a clutch unless the file says so, m/s.
 const FASTEST_M_S: f64 = 50.0;
 
 /// Usual speeds at which a race slides, rad/s, ascending.
@@ -180,10 +180,9 @@ impl Design {
         if question.speeds_rad_s.is_empty() {
             let track = self.clutch.sliding_track_m();
             let lift = lift_off.filter(|_| question.race == self.sprags_ride_with()).unwrap_or(f64::INFINITY);
-            let usual = usual_speeds_rad_s();
+            let usual = usual_speeds_rad_s().filter(|w| *w < lift && *w * track <= FASTEST_M_S);
             named = self.named_speeds_rad_s(question.race);
-            let all = usual.chain(named.iter().copied()).filter(|w| *w < lift && *w * track <= FASTEST_M_S);
-            question.speeds_rad_s = all.collect();
+            question.speeds_rad_s = usual.chain(named.iter().copied()).collect();
             question.speeds_rad_s.sort_by(f64::total_cmp);
             question.speeds_rad_s.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * *b);
         }
