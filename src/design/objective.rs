@@ -56,12 +56,12 @@ objectives! {
         "largest departure from the target windup", -1.0, "less departure from the target", 1.0;
     /// The smallest contact margin over the scenarios is maximised.
     ContactMargin: "contact-margin", "", "least contact margin of the scenarios", 1.0, "contact margin", 1.0;
-    /// The speed of the outer race up to which the sprags keep contact in overrun is maximised.
+    /// The speed of the race that the sprags ride with, up to which they keep contact in overrun, is maximised.
     KeepContact: "keep-contact", "rpm",
-        "speed of the outer race up to which the sprags keep contact in overrun", 1.0, "more", 1000.0;
+        "speed of the outer race, with [cage] of the inner one, up to which the sprags keep contact in overrun", 1.0, "more", 1000.0;
     /// That speed is minimised: the sprags lift off early.
     LiftOff: "lift-off", "rpm",
-        "speed of the outer race at which the sprags lift off in overrun", -1.0, "less", 1000.0;
+        "speed of the outer race, with [cage] of the inner one, at which the sprags lift off in overrun", -1.0, "less", 1000.0;
     /// The larger of the drag torques in overrun at rest and at the speed to which contact is to be kept is minimised.
     Drag: "drag", "Nm",
         "drag torque in overrun, the larger of slow and at the speed to which contact is kept", -1.0, "less drag", 0.1;

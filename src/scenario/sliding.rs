@@ -164,8 +164,8 @@ impl Steady<'_> {
         root::bracketed(oil_c, high, at_oil, left(high), 1e-11 * high.abs().max(1.0), left)
     }
 
-    /// Conductances, those of the inner race in place of those of the outer one and the other way round where B slides: those of the file, the others by the surfaces of plain rings; contacts as strips as wide as they are flattened, or
-    /// wetted where that is more.
+    /// Conductances: those of the file, the others by the surfaces of plain rings; contacts as strips as wide as they are flattened, or
+    /// wetted where that is more. Where B slides, both races stand for each other.
     fn network(&self, law: &FilmFriction, state: &Overrun) -> Network {
         let Clutch { races, sprags, .. } = self.clutch;
         let outside = self.clutch.cage.is_some();
