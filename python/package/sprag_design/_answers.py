@@ -210,14 +210,14 @@ class OverrunPoint:
     normal_outer_n: float
     """The same at the outer contact, N."""
     friction: float
-    """Coefficient of friction of the inner contact at that speed."""
+    """Coefficient of friction of the sliding contact at that speed: the inner one, in a driven cage the outer one."""
     growth_rate_per_s: float | None
     """Growth of a small swing of the sprags about the equilibrium, 1/s; positive: the equilibrium does not stay; ``None``
     where they are off or nothing slides."""
     swing_frequency_hz: float | None
     """Frequency of that swing, Hz."""
     lifted_off: bool
-    """Whether the sprags are off the inner race."""
+    """Whether the sprags are off the race that they slide on."""
     outer_race_growth_um: float
     """Growth of the outer track by rotation, um."""
     rotation_hoop_outer_mpa: float
@@ -269,8 +269,8 @@ class Check(_Common):
     end: End
     """Where the static curve ends, which may be below the torques of the limits."""
     lift_off_rpm: float | None
-    """Speed at which the sprags lift off the inner race, rev/min; ``None``: contact is kept up to
-    ``lift_off_searched_to_rpm``."""
+    """Speed of the outer race at which the sprags lift off the inner one, rev/min, in a driven cage of the inner race at
+    which they lift off the outer one; ``None``: contact is kept up to ``lift_off_searched_to_rpm``."""
     lift_off_searched_to_rpm: float
     """How far a lift-off was looked for, rev/min."""
     overrun: Overrun
