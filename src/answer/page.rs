@@ -21,7 +21,7 @@ pub fn begun(title: &str, design: &Design, command: &str) -> Page {
 
 /// The sprag of `design` at first contact at rest.
 pub fn pose_at_rest(label: &str, design: &Design, profile: &Profile) -> SpragPose {
-    SpragPose::at_rest(label, &design.clutch.sprags, profile)
+    SpragPose::at_rest(label, &design.clutch, profile)
 }
 
 /// The same sprag under load, as the equilibrium `state` (of [`WedgeCurve::closure_at_torque`]) has it.

@@ -283,7 +283,7 @@ fn alternatives(page: &mut Page, sized: &Sized) {
     let drawn = |(i, tried, made): &(usize, &Tried, &Made)| {
         let clutch = &made.design.clutch;
         let profile = clutch.profile().ok()?;
-        let pose = SpragPose::at_rest("first contact", &clutch.sprags, &profile);
+        let pose = SpragPose::at_rest("first contact", clutch, &profile);
         let word = if *i == sized.taken { "Taken: race" } else { "Race" };
         let caption = format!(
             "{word} space {}, {} sprags; {}",

@@ -13,7 +13,7 @@
 //!
 //! While the sprag rests on the inner race F_c turns it about A, open where G lies ahead of A; from N_bi = 0 on the cage
 //! bears it, and N_be falls to 0 where m_g OC_g OP sin(-pi) Omega^2 = M_s: lift-off, for P behind G (pi < 0) only. All
-//! of it at the geometry of first contact: a few newtons turn the sprag by little against alpha_max.
+//! of it with P on its stop where the sprag touches both races, at the geometry of first contact: a few newtons turn the sprag by little against alpha_max.
 
 use super::start::{DRAG_FRICTION, Overrun, settle};
 use crate::clutch::{Cage, Clutch};
@@ -118,6 +118,10 @@ pub struct CageFacts {
     /// By which part the speed of lift-off would be higher, had the inner race borne all the friction along the track that it can
     /// (mu of the drag) under the sprags while the drag was measured, in place of the cage.
     pub lift_off_higher: f64,
+    /// By which part the speed of lift-off is higher for each metre c by which P may go outward before the cage stops it: the sprag
+    /// tilts open about C_e by c/(OP sin chi), by which the spring gains and the lever of F_c changes. First order, of small c; 0 where
+    /// the sprags do not lift off.
+    pub lift_off_higher_per_m: f64,
     /// Whether the sprags open the wider the faster the race turns beyond lift-off, and come back at its speed. Otherwise the lever of
     /// the centrifugal force grows faster than the spring's moment while they tilt: they open at once as far as the cage lets them, and
     /// come back at a lower speed.
@@ -133,12 +137,20 @@ impl CageFacts {
         let more = DRAG_FRICTION * b.normal_inner_n * (held.op * held.to_a.cos() - held.oa);
         // P x G = OP d sin kappa; tilting open by psi makes kappa less by psi, the moment of the spring K_r (alpha_max + psi).
         let oc_g = at_rest.touch().oc_g.v;
+        let closing = alpha_max_rad - held.alpha;
+        // Of OP lever, m^2, by a tilt about C_e.
+        let turning = at_rest.touch().lengths.oc_e.v * (cage.pivot_m[1] - clutch.sprags.centroid_m[1]);
         let (lever, outward) = (-oc_g * held.pi.sin(), oc_g * held.pi.cos() - held.op);
         Self {
             pivot_radius_m: held.op,
+            lift_off_higher_per_m: if closing > 0.0 && lever > 0.0 {
+                0.5 * (1.0 / closing - turning / (held.op * lever)) / (held.op * held.chi.sin())
+            } else {
+                0.0
+            },
             ahead_of_centroid_rad: held.pi,
             lift_off_higher: (1.0 + more / b.opening_nm.iter().sum::<f64>()).sqrt() - 1.0,
-            opens_softly: -outward * (alpha_max_rad - held.alpha) < lever,
+            opens_softly: -outward * closing < lever,
         }
     }
 }

@@ -86,9 +86,9 @@ pub(super) fn scenes(file: &DesignFile, scenarios: &[Scenario], out: &mut Findin
         let keys: Vec<&str> = key.into_iter().chain([&kind]).map(String::as_str).chain(["cage"]).collect();
         out.refuse(
             &keys,
-            "with [cage] scenes that begin under load and stay engaged: in overrun their sprags would ride with the outer race".to_owned(),
+            "with [cage] only scenes that begin under load and stay engaged: the equations of motion let sprags in overrun ride with the outer race".to_owned(),
             format!(
-                "remove scenario {:?}; `check` and, with [lubrication], `overrun` look at steady overrun with the cage",
+                "remove scenario {:?} or [cage]; `check` and, with [lubrication], `overrun` look at steady overrun with the cage",
                 scenario.name
             ),
         );

@@ -13,7 +13,7 @@ mod sheet;
 
 pub use live::{Live, live};
 
-use crate::clutch::{Clutch, Sprags};
+use crate::clutch::Clutch;
 use crate::profile::{Outline, Profile, Spiral};
 
 /// Chords of a drawn outline leave its arcs by no more than this, m.
@@ -65,6 +65,8 @@ pub struct SpragPose {
     pub spiral: Option<DrawnSpiral>,
     /// Centroid G in the body frame, m.
     pub centroid_m: Option<[f64; 2]>,
+    /// Pivot P of a driven cage in the body frame, m.
+    pub pivot_m: Option<[f64; 2]>,
 }
 
 /// What is drawn: two races, the sprags between them, and the profiles to compare. The first pose is drawn in
@@ -103,12 +105,14 @@ impl SpragPose {
             arcs: profile.arcs.iter().map(drawn).collect(),
             spiral: None,
             centroid_m,
+            pivot_m: None,
         }
     }
 
     /// The sprag of a clutch at first contact at rest, with its outline: the narrowest that works where the design names
     /// no flanks, and none where no flanks close the profile.
-    pub fn at_rest(label: &str, sprags: &Sprags, profile: &Profile) -> Self {
+    pub fn at_rest(label: &str, clutch: &Clutch, profile: &Profile) -> Self {
+        let sprags = &clutch.sprags;
         let outline = match sprags.flanks {
             Some(flanks) => Outline::closed(profile, &flanks),
             None => Outline::narrowest(profile),
@@ -119,7 +123,11 @@ impl SpragPose {
             let first = profile.arcs.len().saturating_sub(s.arc_count());
             Some(DrawnSpiral { first, curve: s, pole_m: [pole.x, pole.y] })
         });
-        Self { spiral, ..Self::at_first_contact(label, profile, outline, Some(sprags.centroid_m)) }
+        Self {
+            spiral,
+            pivot_m: clutch.cage.map(|cage| cage.pivot_m),
+            ..Self::at_first_contact(label, profile, outline, Some(sprags.centroid_m))
+        }
     }
 
     /// Whether arc `k` and the one before are arcs of a spiral, which needs no name there.

@@ -223,7 +223,7 @@ impl Solved {
     }
 
     fn pose_at_rest(&self) -> SpragPose {
-        SpragPose::at_rest(&self.design.name, &self.design.clutch.sprags, &self.state.profile)
+        SpragPose::at_rest(&self.design.name, &self.design.clutch, &self.state.profile)
     }
 
     /// Torque to which the plots go: half as much again as is asked, or the curve's end.

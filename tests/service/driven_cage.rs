@@ -251,3 +251,28 @@ fn the_commands_say_which_race_is_meant() {
         assert!(check.contains(words), "{check}");
     }
 }
+
+/// A pivot that may go outward by c: the sprag turned open about C_e in Cartesian coordinates until P is c farther out, at that speed of
+/// lift-off.
+#[test]
+fn clearance_outside_the_pivot_puts_lift_off_up() {
+    for centroid in [[1.55, 0.70], [0.35, -1.0]] {
+        let g = format!("centroid = {{ x_mm = {}, y_mm = {} }}", centroid[0], centroid[1]);
+        let (design, state) = changed(&[("centroid = { x_mm = 1.55, y_mm = 0.70 }", &g)]);
+        let cage = design.clutch.cage.unwrap();
+        let facts = CageFacts::of(&design.clutch, &cage, &state.curve, state.alpha_max_rad);
+        let [g, p] = [centroid.map(|mm| 1e-3 * mm), [0.15e-3, -0.5e-3]];
+        let closing = state.alpha_max_rad - state.curve.touch().alpha.v;
+        let turned = |[x, y]: [f64; 2], tilt: f64| {
+            [x * tilt.cos() - y * tilt.sin(), 0.0414 + x * tilt.sin() + y * tilt.cos()]
+        };
+        let squared = |tilt: f64| {
+            let ([gx, gy], [px, py]) = (turned(g, tilt), turned(p, tilt));
+            (closing + tilt) / (gx * py - gy * px)
+        };
+        let out = |tilt: f64| turned(p, tilt)[0].hypot(turned(p, tilt)[1]);
+        let tilt = 1e-5;
+        let by_hand = ((squared(tilt) / squared(0.0)).sqrt() - 1.0) / (out(tilt) - out(0.0));
+        assert!((facts.lift_off_higher_per_m / by_hand - 1.0).abs() < 2e-4, "{facts:?} {by_hand}");
+    }
+}

@@ -211,6 +211,8 @@ pub struct CageSection {
     pub pivot_ahead_of_centroid_deg: f64,
     /// By which part lift-off comes later at most, where the inner race and not the cage took the sprags along while the drag was measured.
     pub lift_off_later_at_most: f64,
+    /// By which part lift-off comes later for each micrometre that the pivot may go outward before the cage stops it.
+    pub lift_off_later_per_um: f64,
     /// Whether the sprags come back to the outer race at the speed of lift-off; else at a lower one.
     pub comes_back_there: bool,
 }
@@ -224,6 +226,7 @@ impl CageSection {
             pivot_radius_mm: Unit::Millimetre.from_si(facts.pivot_radius_m),
             pivot_ahead_of_centroid_deg: Unit::Degree.from_si(facts.ahead_of_centroid_rad),
             lift_off_later_at_most: facts.lift_off_higher,
+            lift_off_later_per_um: 1e-6 * facts.lift_off_higher_per_m,
             comes_back_there: facts.opens_softly,
         })
     }
@@ -421,12 +424,18 @@ impl OverrunSection {
                     "Sprags keep contact with the outer race up to {searched_to_rpm:.0} rpm of the inner race at least"
                 );
             };
+            if rpm <= 0.0 {
+                return "No spring closes the sprags: nothing presses them on the outer race".to_owned();
+            }
             return format!(
-                "Sprags lift off the outer race at {rpm:.0} rpm of the inner race, the overrun speed not to be fallen below for long{}{}",
+                "Sprags lift off the outer race at {rpm:.0} rpm of the inner race: keep above it in long overrun{}; {} later for each µm of \
+                 clearance outside the pivot{}",
                 match cage.comes_back_there {
-                    true => "; they come back at the same",
-                    false => "; they open at once as far as the cage lets them, and come back at a lower one",
+                    true => "; they come back at the same speed",
+                    false =>
+                        "; they open at once as far as the cage lets them, and come back at a lower speed",
                 },
+                Unit::Percent.show(cage.lift_off_later_per_um, 2),
                 match cage.lift_off_later_at_most {
                     later if later >= 0.005 => format!(
                         "; up to {} later if the inner race, not the cage, took them along while the drag was measured",

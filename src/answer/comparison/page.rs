@@ -81,7 +81,7 @@ fn alike(a: &Subject, b: &Subject) -> bool {
 /// Outlines over one another, the second in full, and by how much the profiles differ.
 fn profiles(page: &mut Page, compared: &Comparison<'_>) {
     let pose = |(i, s): (usize, &Subject)| {
-        SpragPose::at_rest(&label(compared, i), &s.design.clutch.sprags, &s.state.profile)
+        SpragPose::at_rest(&label(compared, i), &s.design.clutch, &s.state.profile)
     };
     let mut poses: Vec<SpragPose> = compared.subjects.iter().enumerate().map(pose).collect();
     let Some(now) = compared.subjects.get(1) else { return };

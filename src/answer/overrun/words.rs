@@ -2,6 +2,7 @@
 
 use super::{LeftOut, OverrunAnswer, OverrunLine, RunningRace};
 use crate::answer::check::overrun::passing_words;
+use crate::dynamics::CageFacts;
 use crate::lubrication::Film;
 use crate::report::{Unit, significant};
 
@@ -23,7 +24,7 @@ pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
         )
     };
     let mut all = match answer.slides_outside() {
-        true => vec![along(), swing()],
+        true => vec![along(), swing(), clearance(answer)],
         false => vec![riding_inside(answer)],
     };
     all.extend([
@@ -49,6 +50,23 @@ pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
         ),
     ]);
     all
+}
+
+/// Where the pivot of a driven cage lies when the sprag presses on both races.
+fn clearance(answer: &OverrunAnswer<'_>) -> LeftOut {
+    let (clutch, state) = (&answer.design.clutch, &answer.state);
+    let later = clutch.cage.map_or(0.0, |cage| {
+        1e-6 * CageFacts::of(clutch, &cage, &state.curve, state.alpha_max_rad).lift_off_higher_per_m
+    });
+    LeftOut::new(
+        "clearance outside the pivot of a driven cage, and the thickness of the film at the outer contact",
+        "the pivot is on its stop when the sprag touches both races; a film between them does not turn the sprag",
+        &format!(
+            "each µm of either turns the sprag, and lifts it off {} later; where the film above is thicker than some µm, just below \
+             lift-off, it is thinner in fact, and the drag goes on for some way beyond",
+            Unit::Percent.show(later, 2)
+        ),
+    )
 }
 
 /// Sprags that ride with the inner race and slide on the outer one. All normal forces and the centrifugal force go through the axis,

@@ -39,7 +39,8 @@ fn named(pose: &SpragPose, index: usize, many: bool) -> Vec<Named> {
         .collect();
     let centroid = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite()));
     let pole = pose.spiral.map(|s| Named { at_m: s.pole_m, name: format!("pole{tail}"), series: None });
-    points.extend(pole);
+    let pivot = pose.pivot_m.map(|p| Named { at_m: p, name: format!("P{tail}"), series: None });
+    points.extend(pole.into_iter().chain(pivot));
     points.extend(centroid.map(|g| Named { at_m: g, name: format!("G{tail}"), series: None }));
     points
 }

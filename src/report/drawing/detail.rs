@@ -241,6 +241,11 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
         cross(at, INK);
         notes.push(Note { at, text: "pole".to_owned(), left: false, wanted: at[1] });
     }
+    if let Some(p) = pose.pivot_m {
+        let at = view.px(pose.place(p));
+        cross(at, INK);
+        notes.push(Note { at, text: "P, pivot".to_owned(), left: true, wanted: at[1] });
+    }
     if let Some(g) = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite())) {
         let at = view.px(pose.place(g));
         svg.dot(at, 4.2, &format!("fill=\"{PAPER}\" stroke=\"{INK}\" stroke-width=\"1.3\""));

@@ -99,6 +99,7 @@ fn centres(svg: &mut Svg, pose: &SpragPose, scale: f64) {
     };
     cross([0.0, 0.0], EDGE);
     pose.arcs.iter().for_each(|arc| cross(arc.centre_m, SERIES[2]));
+    pose.pivot_m.iter().for_each(|p| cross(*p, INK));
     for (k, arc) in pose.arcs.iter().enumerate() {
         let turns = if k == 0 { vec![arc.from_rad, arc.until_rad] } else { vec![arc.until_rad] };
         for turn in turns {
