@@ -425,8 +425,7 @@ impl Design {
     fn drawings(&self, py: Python<'_>) -> PyResult<(String, String, String)> {
         let profile = self.design.clutch.profile().map_err(|why| errors::no_clutch(py, &why))?;
         let clutch = &self.design.clutch;
-        let drawing =
-            Drawing::of(clutch, vec![SpragPose::at_rest(&self.design.name, &clutch.sprags, &profile)]);
+        let drawing = Drawing::of(clutch, vec![SpragPose::at_rest(&self.design.name, clutch, &profile)]);
         Ok((
             drawing.detail_svg(),
             drawing.small_svg(clutch.races.outer_outside_radius_m),
