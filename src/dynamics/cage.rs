@@ -119,7 +119,7 @@ pub struct CageFacts {
     /// (mu of the drag) under the sprags while the drag was measured, in place of the cage.
     pub lift_off_higher: f64,
     /// By which part the speed of lift-off is higher for each metre c by which P may go outward before the cage stops it: the sprag
-    /// tilts open about C_e by c/(OP sin chi), by which the spring gains and the lever of F_c changes. First order, of small c; 0 where
+    /// tilts open about C_e by c/(OC_e sin chi), by which the spring gains and the lever of F_c changes. First order, of small c; 0 where
     /// the sprags do not lift off.
     pub lift_off_higher_per_m: f64,
     /// Whether the sprags open the wider the faster the race turns beyond lift-off, and come back at its speed. Otherwise the lever of
@@ -139,12 +139,13 @@ impl CageFacts {
         let oc_g = at_rest.touch().oc_g.v;
         let closing = alpha_max_rad - held.alpha;
         // Of OP lever, m^2, by a tilt about C_e.
-        let turning = at_rest.touch().lengths.oc_e.v * (cage.pivot_m[1] - clutch.sprags.centroid_m[1]);
+        let oc_e = at_rest.touch().lengths.oc_e.v;
+        let turning = oc_e * (cage.pivot_m[1] - clutch.sprags.centroid_m[1]);
         let (lever, outward) = (-oc_g * held.pi.sin(), oc_g * held.pi.cos() - held.op);
         Self {
             pivot_radius_m: held.op,
             lift_off_higher_per_m: if closing > 0.0 && lever > 0.0 {
-                0.5 * (1.0 / closing - turning / (held.op * lever)) / (held.op * held.chi.sin())
+                0.5 * (1.0 / closing - turning / (held.op * lever)) / (oc_e * held.chi.sin())
             } else {
                 0.0
             },
