@@ -317,15 +317,21 @@ impl Clutch {
         (offset + sprag).min(race) - (offset - sprag).max(-race)
     }
 
+    /// Whether the sprags slide on the outer race in overrun: a driven cage carries them with the inner one. Otherwise they ride with
+    /// the outer race and slide on the inner one.
+    pub fn slides_outside(&self) -> bool {
+        self.cage.is_some()
+    }
+
     /// The overrun, rad/s, in which the race that the sprags ride with runs at `speed_rad_s` and the other stands: by how much the
     /// inner race is ahead, and the speed of the outer one.
     pub fn overrun_of_carrier(&self, speed_rad_s: f64) -> [f64; 2] {
-        if self.cage.is_some() { [speed_rad_s, 0.0] } else { [-speed_rad_s, speed_rad_s] }
+        if self.slides_outside() { [speed_rad_s, 0.0] } else { [-speed_rad_s, speed_rad_s] }
     }
 
     /// Radius of the track on which the sprags slide in overrun, m.
     pub fn sliding_track_m(&self) -> f64 {
-        if self.cage.is_some() { self.races.outer_radius_m } else { self.races.inner_radius_m }
+        if self.slides_outside() { self.races.outer_radius_m } else { self.races.inner_radius_m }
     }
 
     /// Masses of all sprags, of the inner and of the outer race (plain rings as wide as `races.width_mm`), kg.

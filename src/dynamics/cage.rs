@@ -44,6 +44,13 @@ struct Balance {
     opening_nm: [f64; 3],
 }
 
+impl Balance {
+    /// What turns the sprag open about P, N m.
+    fn opens_nm(&self) -> f64 {
+        self.opening_nm.iter().sum()
+    }
+}
+
 impl Held {
     /// `touch` is a curve whose first contact has the growth of the outer race.
     fn new(clutch: &Clutch, cage: &Cage, touch: &WedgeCurve, cage_rad_s: f64) -> Self {
@@ -65,6 +72,11 @@ impl Held {
     /// What the centrifugal force turns open about P, N m.
     fn lifting_nm(&self) -> f64 {
         -self.centrifugal_n * self.op * self.pi.sin()
+    }
+
+    /// What the spring turns closed about P, N m.
+    fn closing_nm(&self, clutch: &Clutch, alpha_max_rad: f64) -> f64 {
+        clutch.spring.stiffness_nm_per_rad * (alpha_max_rad - self.alpha)
     }
 
     /// N_be = `n` (N), B sliding with [mu, x].
@@ -91,8 +103,7 @@ impl Held {
 pub(super) fn alpha_max_rad(clutch: &Clutch, cage: &Cage, at_rest: &WedgeCurve) -> f64 {
     let t = clutch.spring.drag_torque_nm / (clutch.sprags.count as f64 * clutch.races.outer_radius_m);
     let held = Held::new(clutch, cage, at_rest, 0.0);
-    held.at(t / DRAG_FRICTION, [DRAG_FRICTION, 0.0]).opening_nm.iter().sum::<f64>()
-        / clutch.spring.stiffness_nm_per_rad
+    held.at(t / DRAG_FRICTION, [DRAG_FRICTION, 0.0]).opens_nm() / clutch.spring.stiffness_nm_per_rad
 }
 
 /// (Opening moment of the centrifugal force, closing moment of the spring) about P on one sprag at `cage_rad_s`, N m; B is
@@ -105,7 +116,7 @@ pub fn pivot_moments(
     cage_rad_s: f64,
 ) -> (f64, f64) {
     let held = Held::new(clutch, cage, touch, cage_rad_s);
-    (held.lifting_nm(), clutch.spring.stiffness_nm_per_rad * (alpha_max - held.alpha))
+    (held.lifting_nm(), held.closing_nm(clutch, alpha_max))
 }
 
 /// What a driven cage makes of the sprags at first contact at rest.
@@ -129,20 +140,21 @@ pub struct CageFacts {
 }
 
 impl CageFacts {
-    /// Of `clutch`, whose curve at rest is `at_rest`.
-    pub fn of(clutch: &Clutch, cage: &Cage, at_rest: &WedgeCurve, alpha_max_rad: f64) -> Self {
+    /// Of `clutch`, whose curve at rest is `at_rest`; `None` without a driven cage.
+    pub fn of(clutch: &Clutch, at_rest: &WedgeCurve, alpha_max_rad: f64) -> Option<Self> {
+        let cage = clutch.cage.as_ref()?;
         let held = Held::new(clutch, cage, at_rest, 0.0);
         let b = held.at(1.0, [DRAG_FRICTION, 0.0]);
         // A force forward at A, below P, turns the sprag open.
         let more = DRAG_FRICTION * b.normal_inner_n * (held.op * held.to_a.cos() - held.oa);
         // P x G = OP d sin kappa; tilting open by psi makes kappa less by psi, the moment of the spring K_r (alpha_max + psi).
-        let oc_g = at_rest.touch().oc_g.v;
+        let touch = at_rest.touch();
+        let (oc_g, oc_e) = (touch.oc_g.v, touch.lengths.oc_e.v);
         let closing = alpha_max_rad - held.alpha;
         // Of OP lever, m^2, by a tilt about C_e.
-        let oc_e = at_rest.touch().lengths.oc_e.v;
         let turning = oc_e * (cage.pivot_m[1] - clutch.sprags.centroid_m[1]);
         let (lever, outward) = (-oc_g * held.pi.sin(), oc_g * held.pi.cos() - held.op);
-        Self {
+        Some(Self {
             pivot_radius_m: held.op,
             lift_off_higher_per_m: if closing > 0.0 && lever > 0.0 {
                 0.5 * (1.0 / closing - turning / (held.op * lever)) / (oc_e * held.chi.sin())
@@ -150,9 +162,9 @@ impl CageFacts {
                 0.0
             },
             ahead_of_centroid_rad: held.pi,
-            lift_off_higher: (1.0 + more / b.opening_nm.iter().sum::<f64>()).sqrt() - 1.0,
+            lift_off_higher: (1.0 + more / b.opens_nm()).sqrt() - 1.0,
             opens_softly: -outward * closing < lever,
-        }
+        })
     }
 }
 
@@ -168,11 +180,11 @@ pub fn overrun_in_cage(
     sliding: impl Fn(f64) -> [f64; 2],
 ) -> Overrun {
     let held = Held::new(clutch, cage, touch, cage_rad_s);
-    let spring = clutch.spring.stiffness_nm_per_rad * (alpha_max - held.alpha);
+    let spring = held.closing_nm(clutch, alpha_max);
     let balance = |n: f64| {
         let [mu, ahead] = sliding(n);
         let b = held.at(n, [mu, ahead]);
-        let left = spring - b.opening_nm.iter().sum::<f64>();
+        let left = spring - b.opens_nm();
         let size = spring.abs() + b.opening_nm.iter().map(|m| m.abs()).sum::<f64>();
         let overrun = Overrun {
             alpha_rad: held.alpha,

@@ -46,7 +46,7 @@ impl FilmFriction {
 
     /// The contact that slides in overrun: A, or B in a cage that the inner race drives.
     pub fn in_overrun(clutch: &Clutch, temperature_c: f64) -> Option<Self> {
-        if clutch.cage.is_none() {
+        if !clutch.slides_outside() {
             return Self::of(clutch, temperature_c);
         }
         let race = clutch.materials.outer_race.plane_strain_compliance();

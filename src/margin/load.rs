@@ -207,8 +207,7 @@ fn unloaded_row(case: &LoadCase, limit: &'static Limit) -> Option<Margin> {
             let point = overrun_at(design, state, 0.0, speed).ok()?;
             let demand = Demand::Value(wanted);
             let row = Margin::new(limit, demand, point.lubricated?.film.lambda);
-            let caged = design.clutch.cage.is_some();
-            return Some(match caged {
+            return Some(match design.clutch.slides_outside() {
                 true => Margin { name: row.name.replace("inner", "outer"), ..row },
                 false => row,
             });

@@ -47,7 +47,7 @@ pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, ahead_ra
     });
     match lubricated {
         Some((state, lubricated)) => {
-            let friction = if clutch.cage.is_some() { state.tan_outer } else { state.tan_inner };
+            let friction = if clutch.slides_outside() { state.tan_outer } else { state.tan_inner };
             Sliding { state, friction, lubricated: Some(lubricated) }
         }
         None => {
@@ -83,7 +83,7 @@ impl Sliding {
         alpha_max_rad: f64,
         sliding_rad_s: f64,
     ) -> Option<Swing> {
-        if clutch.cage.is_some() {
+        if clutch.slides_outside() {
             return None;
         }
         let film = self.lubricated.as_ref().map(|l| &l.law);
@@ -101,7 +101,7 @@ impl Lubricated {
         alpha_max_rad: f64,
         sliding_rad_s: f64,
     ) -> Option<Swing> {
-        if clutch.cage.is_some() {
+        if clutch.slides_outside() {
             return None;
         }
         swing_with_friction(clutch, curve, alpha_max_rad, steady, sliding_rad_s, Some(&self.law))
@@ -136,7 +136,7 @@ impl Steady<'_> {
         let network = self.network(&law, &state);
         let heat =
             network.solve(state.drag_torque_nm * self.sliding_rad_s(), self.lubrication.temperature_c)?;
-        let heat = if self.clutch.cage.is_some() { heat.inside_out() } else { heat };
+        let heat = if self.clutch.slides_outside() { heat.inside_out() } else { heat };
         Some((state, Lubricated { law, film, film_c, heat }))
     }
 
@@ -147,7 +147,7 @@ impl Steady<'_> {
         let left = |film_c: f64| {
             self.at(film_c).map_or(oil_c - film_c, |(_, l)| {
                 let t = l.heat.temperatures;
-                let race = if self.clutch.cage.is_some() { t.outer_race } else { t.inner_race };
+                let race = if self.clutch.slides_outside() { t.outer_race } else { t.inner_race };
                 0.5 * (race + t.sprags) - film_c
             })
         };
@@ -168,14 +168,14 @@ impl Steady<'_> {
     /// wetted where that is more. Where B slides, both races stand for each other.
     fn network(&self, law: &FilmFriction, state: &Overrun) -> Network {
         let Clutch { races, sprags, .. } = self.clutch;
-        let outside = self.clutch.cage.is_some();
+        let outside = self.clutch.slides_outside();
         let speed = self.sliding_rad_s() * self.clutch.sliding_track_m();
         let film = law.at(speed, state.sliding_n).film;
         let contact = &law.contact;
         let wetted = (2.0 * contact.radius_m * film.thickness_m).sqrt();
         let half = contact.half_width_m(state.sliding_n).hypot(wetted);
-        let of_a = FilmFriction::of(self.clutch, self.lubrication.temperature_c).map(|law| law.contact);
-        let (other, pressed_n, far) = match of_a.filter(|_| outside) {
+        let of_a = || FilmFriction::of(self.clutch, self.lubrication.temperature_c).map(|law| law.contact);
+        let (other, pressed_n, far) = match outside.then(of_a).flatten() {
             Some(a) => (a, state.normal_inner_n, a.radius_m),
             None => {
                 let b = FilmContact { radius_m: FilmFriction::outer_radius_m(self.clutch), ..*contact };

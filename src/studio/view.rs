@@ -274,7 +274,7 @@ fn figures(design: &Design, state: &LoadState, rows: &[Margin]) -> [(&'static st
         ("mass", Unit::Gram.show(design.clutch.mass_kg(), 4)),
         ("drag, slow", slow.map_or_else(|_| none(), |p| Unit::NewtonMetre.show(p.state.drag_torque_nm, 3))),
         (
-            if design.clutch.cage.is_some() { "lift-off, inner race" } else { "lift-off, outer race" },
+            if design.clutch.slides_outside() { "lift-off, inner race" } else { "lift-off, outer race" },
             off.map_or_else(none, |speed| Unit::Rpm.show(speed, 4)),
         ),
     ]

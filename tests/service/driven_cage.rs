@@ -125,8 +125,7 @@ fn a_sprag_that_tilts_softly_needs_more_speed_to_open_further() {
             (state.alpha_max_rad + tilt) / (40.9 * g[0] - 0.15 * g[1])
         };
         assert_eq!(at(1e-4) > at(0.0), soft, "{centroid:?}");
-        let cage = design.clutch.cage.as_ref().unwrap();
-        let facts = CageFacts::of(&design.clutch, cage, &state.curve, state.alpha_max_rad);
+        let facts = CageFacts::of(&design.clutch, &state.curve, state.alpha_max_rad).unwrap();
         assert_eq!(facts.opens_softly, soft, "{centroid:?}: {facts:?}");
     }
 }
@@ -259,8 +258,7 @@ fn clearance_outside_the_pivot_puts_lift_off_up() {
     for centroid in [[1.55, 0.70], [0.35, -1.0]] {
         let g = format!("centroid = {{ x_mm = {}, y_mm = {} }}", centroid[0], centroid[1]);
         let (design, state) = changed(&[("centroid = { x_mm = 1.55, y_mm = 0.70 }", &g)]);
-        let cage = design.clutch.cage.unwrap();
-        let facts = CageFacts::of(&design.clutch, &cage, &state.curve, state.alpha_max_rad);
+        let facts = CageFacts::of(&design.clutch, &state.curve, state.alpha_max_rad).unwrap();
         let [g, p] = [centroid.map(|mm| 1e-3 * mm), [0.15e-3, -0.5e-3]];
         let closing = state.alpha_max_rad - state.curve.touch().alpha.v;
         let turned = |[x, y]: [f64; 2], tilt: f64| {

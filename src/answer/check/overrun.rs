@@ -78,7 +78,7 @@ pub(in crate::answer) fn outer_turns(design: &Design) -> bool {
     let limits = &design.limits;
     // In a driven cage they are speeds of the inner one.
     let of_limits = [limits.keep_contact_to_rad_s, limits.lift_off_by_rad_s];
-    let asked = of_limits.into_iter().flatten().filter(|_| design.clutch.cage.is_none());
+    let asked = of_limits.into_iter().flatten().filter(|_| !design.clutch.slides_outside());
     // An infinite mean speed stands for a history.
     asked.chain(design.scenarios.iter().map(|s| s.mean_speed_rad_s())).any(|speed| speed != 0.0)
 }
@@ -219,8 +219,7 @@ pub struct CageSection {
 
 impl CageSection {
     fn of(design: &Design, state: &LoadState) -> Option<Self> {
-        let clutch = &design.clutch;
-        let facts = CageFacts::of(clutch, clutch.cage.as_ref()?, &state.curve, state.alpha_max_rad);
+        let facts = CageFacts::of(&design.clutch, &state.curve, state.alpha_max_rad)?;
         Some(Self {
             rides_with: "inner",
             pivot_radius_mm: Unit::Millimetre.from_si(facts.pivot_radius_m),

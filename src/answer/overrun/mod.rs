@@ -144,7 +144,7 @@ pub(super) fn usual_speeds_rad_s() -> impl Iterator<Item = f64> {
 impl Design {
     /// The race that the sprags ride with in overrun.
     pub(super) fn sprags_ride_with(&self) -> RunningRace {
-        if self.clutch.cage.is_some() { RunningRace::Inner } else { RunningRace::Outer }
+        if self.clutch.slides_outside() { RunningRace::Inner } else { RunningRace::Outer }
     }
 
     /// Speeds of `race` in steady overruns that the design names, in scenarios and, of the race that the sprags ride with, in limits,

@@ -9,22 +9,20 @@ use crate::report::{Unit, significant};
 /// What overrun on a film leaves out.
 pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
     let new = LeftOut::new;
-    let along = || {
-        new(
-            "force along the track at the inner contact of sprags in a driven cage",
-            "the cage takes them along, as fast as the race",
-            "at most static friction times the normal force at A, none once that has ended",
-        )
-    };
-    let swing = || {
-        new(
-            "swing of the sprags in a driven cage",
-            "their equations of motion have sprags that ride with the outer race",
-            "not estimated: where friction falls with speed a swing may grow",
-        )
-    };
     let mut all = match answer.slides_outside() {
-        true => vec![along(), swing(), clearance(answer)],
+        true => vec![
+            new(
+                "force along the track at the inner contact of sprags in a driven cage",
+                "the cage takes them along, as fast as the race",
+                "at most static friction times the normal force at A, none once that has ended",
+            ),
+            new(
+                "swing of the sprags in a driven cage",
+                "their equations of motion have sprags that ride with the outer race",
+                "not estimated: where friction falls with speed a swing may grow",
+            ),
+            clearance(answer),
+        ],
         false => vec![riding_inside(answer)],
     };
     all.extend([
@@ -54,10 +52,9 @@ pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
 
 /// Where the pivot of a driven cage lies when the sprag presses on both races.
 fn clearance(answer: &OverrunAnswer<'_>) -> LeftOut {
-    let (clutch, state) = (&answer.design.clutch, &answer.state);
-    let later = clutch.cage.map_or(0.0, |cage| {
-        1e-6 * CageFacts::of(clutch, &cage, &state.curve, state.alpha_max_rad).lift_off_higher_per_m
-    });
+    let state = &answer.state;
+    let facts = CageFacts::of(&answer.design.clutch, &state.curve, state.alpha_max_rad);
+    let later = facts.map_or(0.0, |facts| 1e-6 * facts.lift_off_higher_per_m);
     LeftOut::new(
         "clearance outside the pivot of a driven cage, and the thickness of the film at the outer contact",
         "the pivot is on its stop when the sprag touches both races; a film between them does not turn the sprag",
@@ -199,7 +196,7 @@ impl OverrunAnswer<'_> {
 
     /// Whether the sprags slide on the outer race.
     pub(super) fn slides_outside(&self) -> bool {
-        self.design.clutch.cage.is_some()
+        self.design.clutch.slides_outside()
     }
 
     /// The race that they slide on.
