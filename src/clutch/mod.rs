@@ -139,6 +139,8 @@ pub struct Cage {
     /// P in the body frame, m: the point of a sprag that the cage keeps from going outward and takes along. A sprag that
     /// nothing presses on the inner race turns about it.
     pub pivot_m: [f64; 2],
+    /// How far the cage lets P go outward from where it is when the sprag touches both races, m, not negative.
+    pub clearance_m: f64,
 }
 
 /// Energizing spring, per sprag.

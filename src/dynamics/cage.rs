@@ -7,38 +7,76 @@
 //! of G, the force of B at the azimuth x/OB ahead of C_e where a film presses so (chi_B = chi - x/OB), and no force along
 //! the track at A, which the cage drives as fast as the race:
 //!
-//!   radially at P    R = F_c cos pi - N_be (cos chi_B + mu sin chi) + N_bi cos(beta - chi),  R N_bi = 0,
+//!   radially at P    R = F_c cos pi - N_be (cos chi_B + mu sin chi) + N_bi cos(beta - chi),
 //!   about P          M_s + F_c OP sin pi = N_be [OP sin chi_B + mu (OB - OP cos chi)] + N_bi OP sin(beta - chi),
 //!   along at P       H = F_c sin pi - N_be (sin chi_B - mu cos chi) - N_bi sin(beta - chi).
 //!
-//! While the sprag rests on the inner race F_c turns it about A, open where G lies ahead of A; from N_bi = 0 on the cage
-//! bears it, and N_be falls to 0 where m_g OC_g OP sin(-pi) Omega^2 = M_s: lift-off, for P behind G (pi < 0) only. All
-//! of it with P on its stop where the sprag touches both races, at the geometry of first contact: a few newtons turn the sprag by little against alpha_max.
+//! Where it stands: a film at B keeps C_e by its gap h nearer to the axis, and the sprag is open by a tilt psi about C_e between that at
+//! which it rests on the inner race and that at which P, farther out by the clearance c than at first contact, is on its stop:
+//!
+//!   psi_A <= psi <= psi_P,  psi_A = h cot beta/OC_e,  psi_P = (c + h cos chi)/(OC_e sin chi)  to first order,
+//!   N_bi > 0 at psi_A alone, R > 0 at psi_P alone; in between both are 0.
+//!
+//! Without film and clearance both are 0. While the sprag rests on the inner race F_c turns it about A, open where G lies ahead of A; then it
+//! tilts up to its stop and the cage bears it. Dry, N_be falls to 0 where m_g OC_g OP sin(-pi) Omega^2 = M_s at psi_P: lift-off, for P
+//! behind G (pi < 0) only. A film goes on pressing, thicker and less, and the tilt that it takes strains the spring, until the sprag
+//! is as low as its first arc can be between the tracks: beyond it counts as off. Bodies are rigid: a
+//! few newtons turn the sprag by little against alpha_max.
 
-use super::start::{DRAG_FRICTION, Overrun, settle};
+use super::start::{DRAG_FRICTION, Overrun, SlidingContact, settle};
 use crate::clutch::{Cage, Clutch};
 use crate::kinematics::centroid;
+use crate::numeric::root;
 use crate::wedge::WedgeCurve;
 
-/// A sprag at first contact in a cage at a speed.
+/// A point of a sprag: how far from the axis of the clutch, m, and by which azimuth ahead of C_e, rad.
+#[derive(Clone, Copy)]
+struct Point {
+    radius: f64,
+    ahead: f64,
+}
+
+impl Point {
+    /// From C_e: forward and outward, m.
+    fn from_c_e(&self, oc_e: f64) -> [f64; 2] {
+        let (sin, cos) = self.ahead.sin_cos();
+        [self.radius * sin, self.radius * cos - oc_e]
+    }
+
+    /// The point where the sprag is tilted open by `tilt` about C_e, whose radius then is `to` instead of `oc_e`.
+    fn turned(&self, oc_e: f64, tilt: f64, to: f64) -> Self {
+        let ([x, y], (sin, cos)) = (self.from_c_e(oc_e), tilt.sin_cos());
+        let [x, y] = [x * cos - y * sin, x * sin + y * cos + to];
+        Self { radius: x.hypot(y), ahead: x.atan2(y) }
+    }
+
+    /// The tilt at which its radius is `radius`; the one that brings it farthest out where none does.
+    fn tilt_to(&self, radius: f64, oc_e: f64, to: f64) -> f64 {
+        let [x, y] = self.from_c_e(oc_e);
+        let from_c_e = x.hypot(y);
+        let cosine = (radius * radius - to * to - from_c_e * from_c_e) / (2.0 * to * from_c_e);
+        x.atan2(y) - cosine.clamp(-1.0, 1.0).acos()
+    }
+}
+
+/// A sprag in a cage at a speed: at first contact, or tilted open from it.
+#[derive(Clone, Copy)]
 struct Held {
     oa: f64,
     ob: f64,
-    /// OP, m.
-    op: f64,
-    /// Azimuths of P ahead of C_e and ahead of G, of A ahead of P, rad.
-    chi: f64,
-    pi: f64,
-    to_a: f64,
+    oc_e: f64,
+    p: Point,
+    g: Point,
+    c_1: Point,
     alpha: f64,
-    /// F_c, N.
-    centrifugal_n: f64,
+    mass_kg: f64,
+    cage_rad_s: f64,
 }
 
 /// Forces on one sprag whose B presses with a given force.
 struct Balance {
     normal_inner_n: f64,
-    /// R inward and H forward, N.
+    /// R inward and H forward, N; below 0 the first would have to pull.
     cage_n: [f64; 2],
     /// What turns the sprag open about P, N m, its parts.
     opening_nm: [f64; 3],
@@ -52,26 +90,81 @@ impl Balance {
 }
 
 impl Held {
-    /// `touch` is a curve whose first contact has the growth of the outer race.
+    /// At first contact. `touch` is a curve whose first contact has the growth of the outer race.
     fn new(clutch: &Clutch, cage: &Cage, touch: &WedgeCurve, cage_rad_s: f64) -> Self {
         let c = touch.touch();
         let p = centroid(cage.pivot_m, c.lengths.oc_e, c.rotation);
-        let chi = -p.gamma.v;
+        let oa = c.lengths.oa.v;
+        let first_radius_m = clutch.sprags.inner_arcs.first().map_or(0.0, |arc| arc.radius_m);
         Self {
-            oa: c.lengths.oa.v,
+            oa,
             ob: c.lengths.ob.v,
-            op: p.oc_g.v,
-            chi,
-            pi: c.gamma.v + chi,
-            to_a: c.beta.v - chi,
+            oc_e: c.lengths.oc_e.v,
+            p: Point { radius: p.oc_g.v, ahead: -p.gamma.v },
+            g: Point { radius: c.oc_g.v, ahead: -c.gamma.v },
+            c_1: Point { radius: oa + first_radius_m, ahead: c.beta.v },
             alpha: c.alpha.v,
-            centrifugal_n: clutch.sprags.mass_kg * c.oc_g.v * cage_rad_s * cage_rad_s,
+            mass_kg: clutch.sprags.mass_kg,
+            cage_rad_s,
         }
+    }
+
+    /// Tilted open by `tilt` from first contact, a gap at B; none of either leaves it as it is.
+    fn tilted(&self, tilt: f64, gap: f64) -> Self {
+        if tilt == 0.0 && gap == 0.0 {
+            return *self;
+        }
+        let to = self.oc_e - gap;
+        let [p, g, c_1] = [self.p, self.g, self.c_1].map(|point| point.turned(self.oc_e, tilt, to));
+        Self { oc_e: to, p, g, c_1, alpha: self.alpha - tilt, ..*self }
+    }
+
+    /// From first contact, over a gap at B: resting on the inner race.
+    fn inside(&self, gap: f64) -> Self {
+        let to = self.oc_e - gap;
+        let tilt = if gap == 0.0 { 0.0 } else { self.c_1.tilt_to(self.c_1.radius, self.oc_e, to) };
+        self.tilted(tilt, gap)
+    }
+
+    /// The same on the stop at P, `clearance` farther out than at first contact.
+    fn on_stop(&self, clearance: f64, gap: f64) -> Self {
+        let still = clearance == 0.0 && gap == 0.0;
+        let to = self.oc_e - gap;
+        let tilt = if still { 0.0 } else { self.p.tilt_to(self.p.radius + clearance, self.oc_e, to) };
+        self.tilted(tilt, gap)
+    }
+
+    /// The thickest film up to `most` over which the sprag on its stop is clear of the inner race: it tilts until it is at its lowest there,
+    /// and what lies behind its first contact is not described.
+    fn thickest_m(&self, clearance: f64, most: f64) -> f64 {
+        let clear = |gap: f64| self.on_stop(clearance, gap).c_1.radius - self.c_1.radius;
+        let at_most = clear(most);
+        if most <= 0.0 || at_most >= 0.0 {
+            return most;
+        }
+        let some = (1..50).map(|i| most * 0.5f64.powi(i)).find(|&gap| clear(gap) > 0.0);
+        some.and_then(|some| root::bracketed(some, most, clear(some), at_most, 1e-12 * most, clear))
+            .unwrap_or(0.0)
+    }
+
+    /// pi, rad.
+    fn pi(&self) -> f64 {
+        self.p.ahead - self.g.ahead
+    }
+
+    /// Azimuth of A ahead of P, rad.
+    fn to_a(&self) -> f64 {
+        self.c_1.ahead - self.p.ahead
+    }
+
+    /// F_c, N.
+    fn centrifugal_n(&self) -> f64 {
+        self.mass_kg * self.g.radius * self.cage_rad_s * self.cage_rad_s
     }
 
     /// What the centrifugal force turns open about P, N m.
     fn lifting_nm(&self) -> f64 {
-        -self.centrifugal_n * self.op * self.pi.sin()
+        -self.centrifugal_n() * self.p.radius * self.pi().sin()
     }
 
     /// What the spring turns closed about P, N m.
@@ -79,20 +172,29 @@ impl Held {
         clutch.spring.stiffness_nm_per_rad * (alpha_max_rad - self.alpha)
     }
 
-    /// N_be = `n` (N), B sliding with [mu, x].
-    fn at(&self, n: f64, [mu, ahead]: [f64; 2]) -> Balance {
-        let Self { ob, op, chi, pi, to_a, centrifugal_n: f_c, .. } = *self;
-        let (sin_b, cos_b) = (chi - ahead / ob).sin_cos();
-        let (sin, cos) = chi.sin_cos();
-        let inward = f_c * pi.cos() - n * (cos_b + mu * sin);
-        let normal_inner_n = (-inward).max(0.0) / to_a.cos();
-        let along = f_c * pi.sin() - n * (sin_b - mu * cos) - normal_inner_n * to_a.sin();
+    /// What neither B, pressed by `n` (N), nor the inner race bears of the force outward at P, N.
+    fn outward_n(&self, n: f64, b: &SlidingContact) -> f64 {
+        let (sin, _) = self.p.ahead.sin_cos();
+        self.centrifugal_n() * self.pi().cos()
+            - n * ((self.p.ahead - b.ahead_m / self.ob).cos() + b.friction * sin)
+    }
+
+    /// N_be = `n` (N), B sliding.
+    fn at(&self, n: f64, b: &SlidingContact) -> Balance {
+        let SlidingContact { friction: mu, ahead_m, .. } = *b;
+        let (op, ob, f_c) = (self.p.radius, self.ob, self.centrifugal_n());
+        let sin_b = (self.p.ahead - ahead_m / ob).sin();
+        let (_, cos) = self.p.ahead.sin_cos();
+        let (sin_a, cos_a) = self.to_a().sin_cos();
+        let outward = self.outward_n(n, b);
+        let normal_inner_n = (-outward).max(0.0) / cos_a;
+        let along = f_c * self.pi().sin() - n * (sin_b - mu * cos) - normal_inner_n * sin_a;
         Balance {
             normal_inner_n,
-            cage_n: [inward.max(0.0), along],
+            cage_n: [outward.max(0.0), along],
             opening_nm: [
                 n * (op * sin_b + mu * (ob - op * cos)),
-                normal_inner_n * op * to_a.sin(),
+                normal_inner_n * op * sin_a,
                 self.lifting_nm(),
             ],
         }
@@ -103,11 +205,12 @@ impl Held {
 pub(super) fn alpha_max_rad(clutch: &Clutch, cage: &Cage, at_rest: &WedgeCurve) -> f64 {
     let t = clutch.spring.drag_torque_nm / (clutch.sprags.count as f64 * clutch.races.outer_radius_m);
     let held = Held::new(clutch, cage, at_rest, 0.0);
-    held.at(t / DRAG_FRICTION, [DRAG_FRICTION, 0.0]).opens_nm() / clutch.spring.stiffness_nm_per_rad
+    let dry = SlidingContact::dry(DRAG_FRICTION);
+    held.at(t / DRAG_FRICTION, &dry).opens_nm() / clutch.spring.stiffness_nm_per_rad
 }
 
-/// (Opening moment of the centrifugal force, closing moment of the spring) about P on one sprag at `cage_rad_s`, N m; B is
-/// pressed on while the first is smaller. `touch` as of [`overrun_in_cage`].
+/// (Opening moment of the centrifugal force, closing moment of the spring) about P on one sprag on its stop at `cage_rad_s`, N m; B is
+/// pressed on, without oil, while the first is smaller. `touch` as of [`overrun_in_cage`].
 pub fn pivot_moments(
     clutch: &Clutch,
     cage: &Cage,
@@ -115,7 +218,7 @@ pub fn pivot_moments(
     alpha_max: f64,
     cage_rad_s: f64,
 ) -> (f64, f64) {
-    let held = Held::new(clutch, cage, touch, cage_rad_s);
+    let held = Held::new(clutch, cage, touch, cage_rad_s).on_stop(cage.clearance_m, 0.0);
     (held.lifting_nm(), held.closing_nm(clutch, alpha_max))
 }
 
@@ -129,9 +232,9 @@ pub struct CageFacts {
     /// By which part the speed of lift-off would be higher, had the inner race borne all the friction along the track that it can
     /// (mu of the drag) under the sprags while the drag was measured, in place of the cage.
     pub lift_off_higher: f64,
-    /// By which part the speed of lift-off is higher for each metre c by which P may go outward before the cage stops it: the sprag
-    /// tilts open about C_e by c/(OC_e sin chi), by which the spring gains and the lever of F_c changes. First order, of small c; 0 where
-    /// the sprags do not lift off.
+    /// By which part the speed of lift-off is higher for each further metre c by which P may go outward before the cage stops it: the
+    /// sprag tilts open about C_e by c/(OC_e sin chi), by which the spring gains and the lever of F_c changes. First order, of small
+    /// c; 0 where the sprags do not lift off.
     pub lift_off_higher_per_m: f64,
     /// Whether the sprags open the wider the faster the race turns beyond lift-off, and come back at its speed. Otherwise the lever of
     /// the centrifugal force grows faster than the spring's moment while they tilt: they open at once as far as the cage lets them, and
@@ -143,47 +246,108 @@ impl CageFacts {
     /// Of `clutch`, whose curve at rest is `at_rest`; `None` without a driven cage.
     pub fn of(clutch: &Clutch, at_rest: &WedgeCurve, alpha_max_rad: f64) -> Option<Self> {
         let cage = clutch.cage.as_ref()?;
-        let held = Held::new(clutch, cage, at_rest, 0.0);
-        let b = held.at(1.0, [DRAG_FRICTION, 0.0]);
+        let touching = Held::new(clutch, cage, at_rest, 0.0);
+        let held = touching.on_stop(cage.clearance_m, 0.0);
+        let b = touching.at(1.0, &SlidingContact::dry(DRAG_FRICTION));
         // A force forward at A, below P, turns the sprag open.
-        let more = DRAG_FRICTION * b.normal_inner_n * (held.op * held.to_a.cos() - held.oa);
-        // P x G = OP d sin kappa; tilting open by psi makes kappa less by psi, the moment of the spring K_r (alpha_max + psi).
-        let touch = at_rest.touch();
-        let (oc_g, oc_e) = (touch.oc_g.v, touch.lengths.oc_e.v);
+        let more =
+            DRAG_FRICTION * b.normal_inner_n * (touching.p.radius * touching.to_a().cos() - touching.oa);
+        let (op, oc_g, oc_e, pi) = (held.p.radius, held.g.radius, held.oc_e, held.pi());
         let closing = alpha_max_rad - held.alpha;
-        // Of OP lever, m^2, by a tilt about C_e.
-        let turning = oc_e * (cage.pivot_m[1] - clutch.sprags.centroid_m[1]);
-        let (lever, outward) = (-oc_g * held.pi.sin(), oc_g * held.pi.cos() - held.op);
+        let of_measured = (alpha_max_rad - touching.alpha) / closing;
+        // P x G = OP d sin kappa; tilting open by psi makes kappa less by psi, the moment of the spring K_r (alpha_max + psi). Of OP lever,
+        // m^2, by a tilt about C_e:
+        let [[_, p_out], [_, g_out]] = [held.p, held.g].map(|point| point.from_c_e(oc_e));
+        let turning = oc_e * (p_out - g_out);
+        let (lever, outward) = (-oc_g * pi.sin(), oc_g * pi.cos() - op);
         Some(Self {
-            pivot_radius_m: held.op,
+            pivot_radius_m: touching.p.radius,
             lift_off_higher_per_m: if closing > 0.0 && lever > 0.0 {
-                0.5 * (1.0 / closing - turning / (held.op * lever)) / (oc_e * held.chi.sin())
+                0.5 * (1.0 / closing - turning / (op * lever)) / (oc_e * held.p.ahead.sin())
             } else {
                 0.0
             },
-            ahead_of_centroid_rad: held.pi,
-            lift_off_higher: (1.0 + more / b.opens_nm()).sqrt() - 1.0,
+            ahead_of_centroid_rad: touching.pi(),
+            lift_off_higher: (1.0 + of_measured * more / b.opens_nm()).sqrt() - 1.0,
             opens_softly: -outward * closing < lever,
         })
     }
 }
 
-/// Steady overrun of the sprags in `cage` at `cage_rad_s`, B's friction coefficient and the distance ahead at which its film presses,
-/// m, by `sliding` of N_be, N. `touch` is a curve of weightless sprags at the speed of the outer race: its first contact has the
-/// growth of the track and no centrifugal force.
+/// Where the sprags of a driven cage may stand between inner race and stop, the looser the less they press.
+struct Standing<'a, F> {
+    touching: Held,
+    clearance_m: f64,
+    thickest_m: f64,
+    sliding: &'a F,
+}
+
+impl<F: Fn(f64) -> SlidingContact> Standing<'_, F> {
+    /// B pressed with `n` (N), tilted by a `part` of the way from the inner race to the stop.
+    fn at(&self, n: f64, part: f64) -> (Held, SlidingContact) {
+        let mut b = (self.sliding)(n);
+        b.gap_m = b.gap_m.min(self.thickest_m);
+        let (inside, on_stop) =
+            (self.touching.inside(b.gap_m), self.touching.on_stop(self.clearance_m, b.gap_m));
+        let held = match part {
+            0.0 => inside,
+            1.0 => on_stop,
+            _ => {
+                let tilt = self.touching.alpha - (inside.alpha + part * (on_stop.alpha - inside.alpha));
+                self.touching.tilted(tilt, b.gap_m)
+            }
+        };
+        (held, b)
+    }
+
+    /// The force at B, N, that neither the inner race nor the stop has to help to bear the centrifugal force; 0 where there is none.
+    fn poised_n(&self, part: f64) -> f64 {
+        let left = |n: f64| {
+            let (held, b) = self.at(n, part);
+            held.outward_n(n, &b)
+        };
+        let at_none = left(0.0);
+        if at_none <= 0.0 {
+            return 0.0;
+        }
+        let high = (0..60).map(|i| at_none * 2f64.powi(i)).find(|&n| left(n) <= 0.0);
+        high.and_then(|high| root::bracketed(0.0, high, at_none, left(high), 1e-15 * high, left))
+            .unwrap_or(0.0)
+    }
+}
+
+/// Steady overrun of the sprags in `cage` at `cage_rad_s`; how B slides by `sliding` of N_be, N. `touch` is a curve of weightless sprags
+/// at the speed of the outer race: its first contact has the growth of the track and no centrifugal force.
 pub fn overrun_in_cage(
     clutch: &Clutch,
     cage: &Cage,
     touch: &WedgeCurve,
     alpha_max: f64,
     cage_rad_s: f64,
-    sliding: impl Fn(f64) -> [f64; 2],
+    sliding: impl Fn(f64) -> SlidingContact,
 ) -> Overrun {
-    let held = Held::new(clutch, cage, touch, cage_rad_s);
-    let spring = held.closing_nm(clutch, alpha_max);
-    let balance = |n: f64| {
-        let [mu, ahead] = sliding(n);
-        let b = held.at(n, [mu, ahead]);
+    let touching = Held::new(clutch, cage, touch, cage_rad_s);
+    let clearance_m = cage.clearance_m;
+    let of_film_m = sliding(0.0).gap_m;
+    let thickest_m = touching.thickest_m(clearance_m, of_film_m);
+    let standing = Standing { touching, clearance_m, thickest_m, sliding: &sliding };
+    // The force at B along the way from lift-off to the inner race: on the stop, tilting at the force at which neither helps, inside.
+    let plays = clearance_m > 0.0 || of_film_m > 0.0;
+    let [stop_n, inside_n] = if plays { [1.0, 0.0].map(|part| standing.poised_n(part)) } else { [0.0; 2] };
+    let along = |way: f64| match way {
+        _ if way < stop_n => (way, 1.0),
+        _ if way < 2.0 * stop_n => {
+            let part = 2.0 - way / stop_n;
+            (standing.poised_n(part), part)
+        }
+        _ => (inside_n + way - 2.0 * stop_n, 0.0),
+    };
+    let balance = |way: f64| {
+        let (n, part) = along(way);
+        let (held, contact) = standing.at(n, part);
+        let mu = contact.friction;
+        let b = held.at(n, &contact);
+        let spring = held.closing_nm(clutch, alpha_max);
         let left = spring - b.opens_nm();
         let size = spring.abs() + b.opening_nm.iter().map(|m| m.abs()).sum::<f64>();
         let overrun = Overrun {
@@ -199,16 +363,19 @@ pub fn overrun_in_cage(
         };
         Some((left, size, overrun))
     };
+    let off = touching.on_stop(clearance_m, 0.0);
     let lifted = Overrun {
-        alpha_rad: held.alpha,
+        alpha_rad: off.alpha,
         normal_inner_n: 0.0,
         normal_outer_n: 0.0,
         sliding_n: 0.0,
-        cage_n: held.at(0.0, [0.0; 2]).cage_n,
+        cage_n: off.at(0.0, &SlidingContact::dry(0.0)).cage_n,
         drag_torque_nm: 0.0,
         tan_inner: 0.0,
         tan_outer: 0.0,
         relative_error: 0.0,
     };
-    settle(balance, lifted)
+    let found = settle(balance, lifted);
+    let floats_off = thickest_m > 0.0 && sliding(found.sliding_n).gap_m >= thickest_m;
+    if floats_off { lifted } else { found }
 }

@@ -61,7 +61,8 @@ pub use run::{
     run_while_it_sticks,
 };
 pub use start::{
-    Overrun, alpha_max_rad, overrun, overrun_under, preloaded, settled, settled_end_torque_nm, settled_point,
+    Overrun, SlidingContact, alpha_max_rad, overrun, overrun_under, preloaded, settled,
+    settled_end_torque_nm, settled_point,
 };
 pub use swing::{Swing, swing, swing_on_film, swing_with_friction};
 pub use train::{NodeMotion, Train, TrainMode, TrainRun};

@@ -156,6 +156,24 @@ pub struct Overrun {
     pub relative_error: f64,
 }
 
+/// How the contact that slides in overrun does so under its load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlidingContact {
+    /// T/N.
+    pub friction: f64,
+    /// How far ahead of the contact, where the race comes from, its pressure acts, m.
+    pub ahead_m: f64,
+    /// How far apart a film keeps the bodies, m; only a driven cage makes anything of it.
+    pub gap_m: f64,
+}
+
+impl SlidingContact {
+    /// Without a film.
+    pub fn dry(friction: f64) -> Self {
+        Self { friction, ahead_m: 0.0, gap_m: 0.0 }
+    }
+}
+
 /// How far beside the equilibrium, as a part of N_bi, the moments are taken again for their slope.
 const BESIDE: f64 = 1e-4;
 
@@ -166,16 +184,15 @@ const BESIDE: f64 = 1e-4;
 /// Lift-off (no N_bi > 0 in equilibrium) is an answer. Whether the sprags stay there, and how far beside it the equations of
 /// motion settle, [`super::swing()`] says.
 pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> Overrun {
-    overrun_under(clutch, curve, alpha_max, |_| [mu, 0.0])
+    overrun_under(clutch, curve, alpha_max, |_| SlidingContact::dry(mu))
 }
 
-/// The same where A's friction coefficient depends on N_bi, N, and its pressure acts ahead of A by x_p, m, where the race comes from:
-/// [mu, x_p]. N_bi then goes through O at the azimuth of A less x_p/OA, which leaves T_be OB = T_bi OA.
+/// The same where how A slides depends on N_bi, N. With its pressure ahead of A by x_p, N_bi goes through O at the azimuth of A less x_p/OA, which leaves T_be OB = T_bi OA.
 pub fn overrun_under(
     clutch: &Clutch,
     curve: &WedgeCurve,
     alpha_max: f64,
-    sliding: impl Fn(f64) -> [f64; 2],
+    sliding: impl Fn(f64) -> SlidingContact,
 ) -> Overrun {
     let k_r = clutch.spring.stiffness_nm_per_rad;
     let speed = curve.speed_rad_s();
@@ -190,8 +207,8 @@ pub fn overrun_under(
             (c.alpha.v, c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v)
         };
         let l = levers(oa, ob, oc_g, bg, g);
-        let [mu, ahead] = sliding(n);
-        let pressed = bg - ahead / oa;
+        let SlidingContact { friction: mu, ahead_m, .. } = sliding(n);
+        let pressed = bg - ahead_m / oa;
         let h_i = levers(oa, ob, oc_g, pressed, g).h_i;
         let t_bi = -mu * n;
         let t_be = t_bi * oa / ob;

@@ -22,6 +22,11 @@ pub(super) struct CageFile {
     pub _driven_by: DriverFile,
     /// The point of a sprag at which the cage takes it along and keeps it from going outward, and about which it tilts.
     pub pivot: PivotFile,
+    /// How far the cage lets the pivot go outward from where it is when the sprag touches both races, um; absent: 0. Lift-off comes
+    /// later by some percent for each.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0))]
+    pub clearance_um: f64,
     /// Inertia of the cage, kg m^2, beside races.inner_inertia_kg_m2; absent: 0.
     #[serde(default)]
     #[schemars(extend("minimum" = 0))]
@@ -55,7 +60,10 @@ pub(super) fn cage(file: &CageFile, races: &Races, sprags: &Sprags, out: &mut Fi
         let most = radius * profile.beta0_rad.sin();
         out.refuse(
             &["cage.pivot.x_mm", "cage.pivot.y_mm", "cage"],
-            format!("above 0 and below {} mm: between the lines from the axis to C_e and to C_1", mm(most)),
+            format!(
+                "above 0 and, at that height, below {} mm: between the lines from the axis to the centres of the outer and of the first inner arc",
+                mm(most)
+            ),
             "move the pivot: a sprag that turns closed about it has to press on both races".to_owned(),
         );
         return None;
@@ -70,7 +78,25 @@ pub(super) fn cage(file: &CageFile, races: &Races, sprags: &Sprags, out: &mut Fi
         );
         return None;
     }
-    Some(Cage { pivot_m: [m(file.pivot.x_mm), m(file.pivot.y_mm)] })
+    let pivot_m = [m(file.pivot.x_mm), m(file.pivot.y_mm)];
+    // Turned open about C_e until C_1 is farthest out: then the sprag is lowest over its first arc.
+    let centre = profile.arcs.first()?.centre_m;
+    let (sin, cos) = centre.x.atan2(centre.y).sin_cos();
+    let [px, py] = pivot_m;
+    let outside = (px * cos - py * sin).hypot(profile.outer_centre_distance_m + px * sin + py * cos);
+    let most_um = 1e6 * (outside - radius);
+    if file.clearance_um > most_um {
+        out.refuse(
+            &["cage.clearance_um", "cage"],
+            format!(
+                "at most {} um: with more the sprags tilt beyond where they are lowest before the cage stops them",
+                (10.0 * most_um).floor() / 10.0
+            ),
+            "give what the pocket lets the pivot go outward, commonly some um to some tens of um".to_owned(),
+        );
+        return None;
+    }
+    Some(Cage { pivot_m, clearance_m: 1e-6 * file.clearance_um })
 }
 
 /// Refuse scenes that are or begin in overrun, or whose torque turns round: their equations have sprags that ride with the outer race.

@@ -155,6 +155,14 @@ pub(super) fn service(
             return None;
         }
     }
+    if whole.cage.is_some() && !file.overruns.is_empty() {
+        out.refuse(
+            &["life.overruns", "cage"],
+            "none with [cage]: wear over a life is that of sprags that ride with the outer race".to_owned(),
+            "remove life.overruns; `overrun` has the wear of an hour".to_owned(),
+        );
+        return None;
+    }
     for (i, overrun) in file.overruns.iter().enumerate() {
         let overruns = |s: &&ScenarioFile| s.kind == KindFile::Overrun;
         if !whole.scenarios.iter().filter(overruns).any(|s| s.name == overrun.scenario) {

@@ -7,7 +7,7 @@
 use super::shape;
 
 /// Tables whose numbers may be variables: what the clutch is, not what is asked of it.
-const OWN_TABLES: &[&str] = &["sprags", "races", "spring", "material", "friction", "contact"];
+const OWN_TABLES: &[&str] = &["sprags", "races", "spring", "material", "friction", "contact", "cage"];
 
 /// Every variable: pattern of the name, pattern of the path of the key it sets, meaning. `{k}` counts inner
 /// arcs from 1 in a name and from 0 in a path; `{last}` is the last arc.
@@ -43,7 +43,7 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
 
 /// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](crate::design::LIMIT_KEYS).
 #[cfg(test)]
-const OTHER_TABLES: &[&str] = &["cage", "drivetrain", "scenarios", "thermal", "lubrication", "sharing"];
+const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal", "lubrication", "sharing"];
 
 /// Unit of every number in these tables by the last step of its path, as printed; a pure number has none.
 const UNITS: &[(&str, &str)] = &[
@@ -60,6 +60,7 @@ const UNITS: &[(&str, &str)] = &[
     ("bore_mm", "mm"),
     ("boundary_friction", ""),
     ("centre_distance_mm", "mm"),
+    ("clearance_um", "µm"),
     ("compression_ratio", ""),
     ("count", ""),
     ("crowned_ratio", ""),

@@ -99,6 +99,16 @@ impl FilmFriction {
         (1.0 - state.asperities) * 2.0 * self.contact.radius_m * state.shear.rolling_n / normal_n
     }
 
+    /// How far apart it keeps the bodies, m: h_0 of rigid ones; no more than [`Film::THIN`] of their radius, beyond which nothing presses.
+    pub fn gap_m(&self, speed_abs_m_s: f64, normal_n: f64) -> f64 {
+        let thickest = Film::THIN * self.contact.radius_m;
+        match normal_n > LEAST_N {
+            _ if speed_abs_m_s <= 0.0 => 0.0,
+            true => film(&self.contact, &self.fluid, speed_abs_m_s, normal_n).least_m().min(thickest),
+            false => thickest,
+        }
+    }
+
     /// T/N; that of the asperities without a load, where T is none.
     pub fn coefficient(&self, speed_abs_m_s: f64, normal_n: f64) -> f64 {
         match normal_n > LEAST_N {

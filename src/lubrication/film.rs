@@ -63,6 +63,14 @@ impl Film {
     /// Moes' numbers up to which the formula was compared with a numerical solution (`tests/reference/film.csv`).
     pub const CHECKED: [f64; 2] = [50.0, 15.0];
 
+    /// Part of the contact's relative radius up to which a film is thin, and the contact a parabola.
+    pub const THIN: f64 = 0.01;
+
+    /// h_0, where rigid bodies are closest, m: the largest pressure lies ahead of it.
+    pub fn least_m(&self) -> f64 {
+        self.thickness_m / (1.0 + BREAKS * BREAKS)
+    }
+
     /// Whether it lies in that range.
     pub fn is_checked(&self) -> bool {
         self.load.is_some_and(|load| load <= Self::CHECKED[0]) && self.lubricant <= Self::CHECKED[1]

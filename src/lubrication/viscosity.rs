@@ -23,6 +23,9 @@ fn z(nu: f64) -> (f64, f64) {
 }
 
 impl Walther {
+    /// Up to which it is known to hold, C.
+    pub const KNOWN_TO_C: f64 = 150.0;
+
     /// The line through the viscosities at 40 and 100 C, m^2/s.
     pub fn through(nu40_m2_s: f64, nu100_m2_s: f64) -> Self {
         let y = |nu: f64| z(1e6 * nu).0.log10().log10();

@@ -2,7 +2,9 @@
 
 use super::prepare::sliding_friction;
 use crate::clutch::{Clutch, Lubrication};
-use crate::dynamics::{Overrun, Swing, overrun_in_cage, overrun_under, swing_on_film, swing_with_friction};
+use crate::dynamics::{
+    Overrun, SlidingContact, Swing, overrun_in_cage, overrun_under, swing_on_film, swing_with_friction,
+};
 use crate::friction::{FilmFriction, FilmState};
 use crate::lubrication::{FilmContact, Heat, Network, moving_strip, standing_strip};
 use crate::numeric::root;
@@ -51,19 +53,19 @@ pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, ahead_ra
             Sliding { state, friction, lubricated: Some(lubricated) }
         }
         None => {
-            let state = settled(clutch, curve, alpha_max_rad, ahead_rad_s, |_| [by_law, 0.0]);
+            let state = settled(clutch, curve, alpha_max_rad, ahead_rad_s, |_| SlidingContact::dry(by_law));
             Sliding { state, friction: by_law, lubricated: None }
         }
     }
 }
 
-/// The equilibrium whose sliding contact has [mu, x_p] under its load.
+/// The equilibrium whose contact slides so under its load.
 fn settled(
     clutch: &Clutch,
     curve: &WedgeCurve,
     alpha_max_rad: f64,
     ahead_rad_s: f64,
-    friction: impl Fn(f64) -> [f64; 2],
+    friction: impl Fn(f64) -> SlidingContact,
 ) -> Overrun {
     match &clutch.cage {
         Some(cage) => {
@@ -127,7 +129,8 @@ impl Steady<'_> {
         let law = FilmFriction::in_overrun(self.clutch, film_c)?;
         let speed = self.sliding_rad_s() * self.clutch.sliding_track_m();
         let state = settled(self.clutch, self.curve, self.alpha_max_rad, self.ahead_rad_s, |n| {
-            [law.coefficient(speed, n), law.ahead_m(speed, n)]
+            let (friction, ahead_m) = (law.coefficient(speed, n), law.ahead_m(speed, n));
+            SlidingContact { friction, ahead_m, gap_m: law.gap_m(speed, n) }
         });
         if state.sliding_n <= 0.0 {
             return None;

@@ -7,7 +7,7 @@ use crate::follow::Follow;
 use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
 };
-use crate::report::{Rows, Table, Unit};
+use crate::report::{Rows, Table, Unit, significant};
 use crate::wedge::NoCurve;
 use serde::Serialize;
 
@@ -211,7 +211,9 @@ pub struct CageSection {
     pub pivot_ahead_of_centroid_deg: f64,
     /// By which part lift-off comes later at most, where the inner race and not the cage took the sprags along while the drag was measured.
     pub lift_off_later_at_most: f64,
-    /// By which part lift-off comes later for each micrometre that the pivot may go outward before the cage stops it.
+    /// How far the cage lets the pivot go outward, um, as the file says.
+    pub clearance_um: f64,
+    /// By which part lift-off comes later for each further micrometre of that clearance.
     pub lift_off_later_per_um: f64,
     /// Whether the sprags come back to the outer race at the speed of lift-off; else at a lower one.
     pub comes_back_there: bool,
@@ -225,6 +227,7 @@ impl CageSection {
             pivot_radius_mm: Unit::Millimetre.from_si(facts.pivot_radius_m),
             pivot_ahead_of_centroid_deg: Unit::Degree.from_si(facts.ahead_of_centroid_rad),
             lift_off_later_at_most: facts.lift_off_higher,
+            clearance_um: Unit::Micrometre.from_si(design.clutch.cage?.clearance_m),
             lift_off_later_per_um: 1e-6 * facts.lift_off_higher_per_m,
             comes_back_there: facts.opens_softly,
         })
@@ -427,14 +430,22 @@ impl OverrunSection {
                 return "No spring closes the sprags: nothing presses them on the outer race".to_owned();
             }
             return format!(
-                "Sprags lift off the outer race at {rpm:.0} rpm of the inner race: keep above it in long overrun{}; {} later for each µm of \
-                 clearance outside the pivot{}",
+                "{} the outer race at {rpm:.0} rpm of the inner race: keep above it in long overrun{}; {} later for each µm of clearance \
+                 outside the pivot {}{}",
+                match self.on_film {
+                    true => "Without oil sprags lift off, on oil they begin to float off,",
+                    false => "Sprags lift off",
+                },
                 match cage.comes_back_there {
                     true => "; they come back at the same speed",
                     false =>
                         "; they open at once as far as the cage lets them, and come back at a lower speed",
                 },
                 Unit::Percent.show(cage.lift_off_later_per_um, 2),
+                match cage.clearance_um {
+                    0.0 => "(cage.clearance_um, none here)".to_owned(),
+                    um => format!("beyond the {} µm of the file", significant(um, 3)),
+                },
                 match cage.lift_off_later_at_most {
                     later if later >= 0.005 => format!(
                         "; up to {} later if the inner race, not the cage, took them along while the drag was measured",

@@ -107,6 +107,19 @@ pub(in crate::answer) fn much_friction(design: &Design) -> Option<String> {
     })
 }
 
+/// Why a film that is asked for has no row.
+fn no_film_row(design: &Design, rows: &[Margin]) -> Option<String> {
+    let limits = &design.limits;
+    let (_, speed) = (limits.film_lambda?, limits.film_at_rad_s?);
+    let lubricated = design.clutch.lubrication.is_some();
+    (lubricated && !rows.iter().any(|r| r.limit.key == Some("film_lambda"))).then(|| {
+        format!(
+            "No row for film_lambda: at {} of the inner race the sprags are off the race that they slide on, and need no film",
+            Unit::Rpm.show(speed, 4)
+        )
+    })
+}
+
 /// What the rows do not say: a friction beyond any known, why steady overruns have no rows, steps and histories that come after
 /// the end of their scene.
 pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
@@ -122,5 +135,10 @@ pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
     let held = design.scenarios.iter().filter(|s| rows.iter().any(|r| r.scene.as_ref() == Some(&s.name)));
     let unfelt =
         held.flat_map(|s| unfelt::notes(s).into_iter().map(|note| format!("Note on {}: {note}", s.name)));
-    much_friction(design).into_iter().chain(overrunning).chain(unfelt).collect()
+    much_friction(design)
+        .into_iter()
+        .chain(overrunning)
+        .chain(no_film_row(design, rows))
+        .chain(unfelt)
+        .collect()
 }

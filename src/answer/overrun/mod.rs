@@ -147,6 +147,11 @@ impl Design {
         if self.clutch.slides_outside() { RunningRace::Inner } else { RunningRace::Outer }
     }
 
+    /// Whether the sliding ends at a speed of `race`: in a driven cage a film goes on beyond.
+    fn ends_at_lift_off(&self, race: RunningRace) -> bool {
+        self.sprags_ride_with() == race && !self.clutch.slides_outside()
+    }
+
     /// Speeds of `race` in steady overruns that the design names, in scenarios and, of the race that the sprags ride with, in limits,
     /// rad/s; those of engagements, which only begin so, too.
     fn named_speeds_rad_s(&self, race: RunningRace) -> Vec<f64> {
@@ -179,7 +184,7 @@ impl Design {
         }
         if question.speeds_rad_s.is_empty() {
             let track = self.clutch.sliding_track_m();
-            let lift = lift_off.filter(|_| question.race == self.sprags_ride_with()).unwrap_or(f64::INFINITY);
+            let lift = lift_off.filter(|_| self.ends_at_lift_off(question.race)).unwrap_or(f64::INFINITY);
             let usual = usual_speeds_rad_s().filter(|w| *w < lift && *w * track <= FASTEST_M_S);
             named = self.named_speeds_rad_s(question.race);
             question.speeds_rad_s = usual.chain(named.iter().copied()).collect();

@@ -90,7 +90,7 @@ fn curves(answer: &OverrunAnswer<'_>) -> Vec<(String, Vec<OverrunLine>)> {
     }
     let end = answer
         .lift_off_rad_s
-        .filter(|_| answer.question.race == answer.design.sprags_ride_with())
+        .filter(|_| answer.design.ends_at_lift_off(answer.question.race))
         .unwrap_or(f64::INFINITY);
     let low = low.min(0.1 * high);
     let at = |i: usize| low * (high / low).powf(i as f64 / (POINTS - 1) as f64);

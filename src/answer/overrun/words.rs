@@ -3,7 +3,7 @@
 use super::{LeftOut, OverrunAnswer, OverrunLine, RunningRace};
 use crate::answer::check::overrun::passing_words;
 use crate::dynamics::CageFacts;
-use crate::lubrication::Film;
+use crate::lubrication::{Film, Walther};
 use crate::report::{Unit, significant};
 
 /// What overrun on a film leaves out.
@@ -23,7 +23,7 @@ pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
             ),
             clearance(answer),
         ],
-        false => vec![riding_inside(answer)],
+        false => vec![riding_inside(answer), turning_on_film(answer)],
     };
     all.extend([
         new(
@@ -56,13 +56,31 @@ fn clearance(answer: &OverrunAnswer<'_>) -> LeftOut {
     let facts = CageFacts::of(&answer.design.clutch, &state.curve, state.alpha_max_rad);
     let later = facts.map_or(0.0, |facts| 1e-6 * facts.lift_off_higher_per_m);
     LeftOut::new(
-        "clearance outside the pivot of a driven cage, and the thickness of the film at the outer contact",
-        "the pivot is on its stop when the sprag touches both races; a film between them does not turn the sprag",
-        &format!(
-            "each µm of either turns the sprag, and lifts it off {} later; where the film above is thicker than some µm, just below \
-             lift-off, it is thinner in fact, and the drag goes on for some way beyond",
-            Unit::Percent.show(later, 2)
-        ),
+        "tolerance of the clearance outside the pivot of a driven cage",
+        "the pivot may go outward by cage.clearance_um from where it is when the sprag touches both races, and the sprag then tilts open; a film \
+         at the outer contact is part of that",
+        &format!("each further µm: lift-off without oil {} later", Unit::Percent.show(later, 2)),
+    )
+}
+
+/// A film at A keeps the bodies apart, which turns the sprag open about C_e by h/(OC_e sin beta).
+fn turning_on_film(answer: &OverrunAnswer<'_>) -> LeftOut {
+    let c = answer.state.curve.touch();
+    let closing = answer.state.alpha_max_rad - c.alpha.v;
+    let gaps = answer.lines.iter().filter_map(|l| Some(l.point.lubricated?.film.film.least_m()));
+    let tilt = gaps.fold(0.0, f64::max) / (c.lengths.oc_e.v * c.beta.v.sin());
+    LeftOut::new(
+        "turning of the sprags by the film's own thickness",
+        "sprags stand as at first contact without one",
+        &if closing > 0.0 {
+            format!(
+                "the thickest film above turns them open by {}, and the spring presses {} harder",
+                Unit::Degree.show(tilt, 2),
+                Unit::Percent.show(tilt / closing, 2)
+            )
+        } else {
+            "none: no spring".to_owned()
+        },
     )
 }
 
@@ -103,9 +121,6 @@ fn riding_inside(answer: &OverrunAnswer<'_>) -> LeftOut {
         &cost,
     )
 }
-
-/// Part of the contact's relative radius up to which a film is thin, and the contact a parabola.
-const THIN: f64 = 0.01;
 
 fn place(l: &OverrunLine) -> String {
     format!("{} °C, {}", significant(l.oil_c, 3), Unit::Rpm.show(l.speed_rad_s, 4))
@@ -264,7 +279,7 @@ impl OverrunAnswer<'_> {
             "The {race} race runs, the {other} one stands (--race {other}: the other way); speeds: {of_file}{} usual ones \
              up to 50 m/s of the track{}; --speeds names others",
             if named.is_empty() { ", so" } else { "" },
-            if self.question.race == self.design.sprags_ride_with() { " and lift-off" } else { "" }
+            if self.design.ends_at_lift_off(self.question.race) { " and lift-off" } else { "" }
         )
     }
 
@@ -284,11 +299,14 @@ impl OverrunAnswer<'_> {
             ));
         }
         all.push(match self.lift_off_rad_s {
+            Some(w) if self.slides_outside() => format!(
+                "Without oil the sprags are off the outer race from {} of the inner race; on oil they float off from there, on a film that grows \
+                 with speed as long as the inlet is full",
+                Unit::Rpm.show(w, 4)
+            ),
             Some(w) => format!(
-                "Sprags lift off at {} of the {} race, whatever the oil: drag ends with the force at {}",
-                Unit::Rpm.show(w, 4),
-                self.design.sprags_ride_with().name(),
-                if self.slides_outside() { "B" } else { "A" }
+                "Sprags lift off at {} of the outer race, whatever the oil: drag ends with the force at A",
+                Unit::Rpm.show(w, 4)
             ),
             None => "The sprags do not lift off".to_owned(),
         });
@@ -384,7 +402,7 @@ impl OverrunAnswer<'_> {
         let thick = self.lines.iter().filter_map(|l| {
             let on_film = l.point.lubricated?;
             let thickness_m = on_film.film.film.thickness_m;
-            (thickness_m > THIN * on_film.law.contact.radius_m).then_some((l, thickness_m))
+            (thickness_m > Film::THIN * on_film.law.contact.radius_m).then_some((l, thickness_m))
         });
         if let Some((l, thickness_m)) = thick.max_by(|a, b| a.1.total_cmp(&b.1)) {
             all.push(format!(
@@ -392,6 +410,17 @@ impl OverrunAnswer<'_> {
                  are an order at best",
                 Unit::Micrometre.show(thickness_m, 3),
                 place(l)
+            ));
+        }
+        let hottest = self.lines.iter().filter_map(|l| Some((l, l.point.lubricated?.film_c)));
+        if let Some((l, film_c)) =
+            hottest.filter(|(_, c)| *c > Walther::KNOWN_TO_C).max_by(|a, b| a.1.total_cmp(&b.1))
+        {
+            all.push(format!(
+                "Warning: the film reaches {} °C at {}: no oil is known to stay one beyond {} °C, and the figures there are an order at best",
+                significant(film_c, 3),
+                place(l),
+                Walther::KNOWN_TO_C
             ));
         }
         if let Some(s) = self.slip.filter(|s| s.peclet < 5.0) {
