@@ -69,6 +69,11 @@ impl LifePlace {
         Self::SpragBody,
     ];
 
+    /// The places that contacts press, in the order of [`Self::ALL`].
+    pub fn contacts() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|place| place.is_contact())
+    }
+
     /// Whether a contact is pressed there; else a body swings between two stresses.
     pub fn is_contact(self) -> bool {
         !matches!(self, Self::InnerRing | Self::OuterRing | Self::SpragBody)
@@ -78,11 +83,11 @@ impl LifePlace {
         matches!(self, Self::SpragInside | Self::InnerTrack)
     }
 
-    /// Contacts in one engagement.
-    fn times(self, load: &LoadEffect) -> f64 {
+    /// Contacts in one engagement, of those that places of the tracks see.
+    fn times(self, passes: [f64; 2]) -> f64 {
         match self {
-            Self::InnerTrack => load.passes[0],
-            Self::OuterTrack => load.passes[1],
+            Self::InnerTrack => passes[0],
+            Self::OuterTrack => passes[1],
             _ => 1.0,
         }
     }
@@ -289,9 +294,25 @@ pub fn effect(
 
 /// One engagement at `torque_nm`, without chance.
 fn once(design: &Design, service: &Service, state: &LoadState, torque_nm: f64) -> LoadEffect {
-    let clutch = &design.clutch;
     let p = state.curve.at_torque(torque_nm);
     let walk_m = p.map_or([0.0; 2], |p| walks_m(design, state, &p));
+    let hoop_pa = p.map_or([0.0; 2], |p| rings_pa(design, state, &p));
+    LoadEffect {
+        torque_nm,
+        engagements: 1.0,
+        state: p,
+        hoop_pa,
+        walk_m,
+        passes: p.map_or([0.0; 2], |p| passes(design, service, &p, walk_m)),
+        required_friction: p.map(|p| p.required_friction()),
+        slip: None,
+    }
+}
+
+/// Contacts that a place of the inner and of the outer track sees in one engagement up to `p`, on the way to which the contacts
+/// walk `walk_m`.
+fn passes(design: &Design, service: &Service, p: &StaticPoint, walk_m: [f64; 2]) -> [f64; 2] {
+    let clutch = &design.clutch;
     let half_m = |pa: f64, n: f64| {
         if pa > 0.0 { 2.0 * n / (PI * clutch.contact_length_m() * pa) } else { 0.0 }
     };
@@ -300,24 +321,10 @@ fn once(design: &Design, service: &Service, state: &LoadState, torque_nm: f64) -
         true => 1.0,
         false => clutch.sprags.count as f64 * (walk + 2.0 * half) / (2.0 * PI * radius),
     };
-    let passes = p.map_or([0.0; 2], |p| {
-        [
-            around(walk_m[0], half_m(p.hertz_inner_pa, p.normal_inner_n), races.inner_radius_m),
-            around(walk_m[1], half_m(p.hertz_outer_pa, p.normal_outer_n), races.outer_radius_m),
-        ]
-    });
-    let hoop_pa = p.map_or([0.0; 2], |p| rings_pa(design, state, &p));
-    let required_friction = p.map(|p| p.required_friction());
-    LoadEffect {
-        torque_nm,
-        engagements: 1.0,
-        state: p,
-        hoop_pa,
-        walk_m,
-        passes,
-        required_friction,
-        slip: None,
-    }
+    [
+        around(walk_m[0], half_m(p.hertz_inner_pa, p.normal_inner_n), races.inner_radius_m),
+        around(walk_m[1], half_m(p.hertz_outer_pa, p.normal_outer_n), races.outer_radius_m),
+    ]
 }
 
 /// Lengths of the inner and the outer arc between first contact and the contact at `p`, m: rolling lays the same length on the
@@ -355,8 +362,8 @@ fn used(
         }
         true => {
             let one = |l: &LoadEffect| {
-                let n = l.engagements * place.times(l);
-                (n, contact_part(service, l, place).map(|part| n * part), l.torque_nm)
+                let n = l.engagements * place.times(l.passes);
+                (n, contact_part(service, l.state.as_ref(), place).map(|part| n * part), l.torque_nm)
             };
             loads.iter().map(one).collect()
         }
@@ -384,7 +391,7 @@ pub fn part_at(
         false => swing_part(design, service, state, place, 0.0, torque_nm),
         true => {
             let load = once(design, service, state, torque_nm);
-            contact_part(service, &load, place).map(|part| part * place.times(&load))
+            contact_part(service, load.state.as_ref(), place).map(|part| part * place.times(load.passes))
         }
     }
 }
@@ -413,9 +420,9 @@ fn swing_part(
     parts.max_by(f64::total_cmp)
 }
 
-/// One contact at the pressure of a load.
-fn contact_part(service: &Service, load: &LoadEffect, place: LifePlace) -> Option<f64> {
-    let p = load.state.as_ref()?;
+/// One contact at the pressure of a load, whose state is `p`.
+fn contact_part(service: &Service, p: Option<&StaticPoint>, place: LifePlace) -> Option<f64> {
+    let p = p?;
     let pa = if place.is_inside() { p.hertz_inner_pa } else { p.hertz_outer_pa };
     service.pitting.as_ref().map(|strength| strength.part(pa))
 }

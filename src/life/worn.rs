@@ -19,7 +19,7 @@
 //! Over the path that is taken for a line in the turn, h_0 + h_1 t, by least squares: a parallel curve that is turned by
 //! h_1, so arcs stay arcs.
 
-use super::{Life, LoadEffect};
+use super::{Life, LifePlace, LoadEffect, contact_part, passes, walks_m};
 use crate::clutch::{Clutch, InnerArc, Service};
 use crate::design::Design;
 use crate::lubrication::{flat_depth_m, track_depth_m};
@@ -28,7 +28,7 @@ use crate::margin::{
     load_state, overrun_at,
 };
 use crate::numeric::root;
-use crate::wedge::{AtSpeeds, NoCurve, WedgeCurve};
+use crate::wedge::{AtSpeeds, NoCurve, StaticPoint, WedgeCurve};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
@@ -141,6 +141,9 @@ pub struct WornState {
     pub lift_off_rad_s: Option<f64>,
     /// Normal force of one sprag in the first overrun of the life, N.
     pub normal_n: f64,
+    /// Miner's sum of a whole life in this state, for each of [`LifePlace::contacts`]; `None` where no strength is given or a load is
+    /// not carried.
+    pub pitting: [Option<f64>; 4],
     /// Why it is no clutch any more.
     pub broken: Option<Broken>,
 }
@@ -158,6 +161,17 @@ pub struct WornLife {
 }
 
 impl WornLife {
+    /// Miner's sum over the life, or over as much of it as the clutch is one, for each of [`LifePlace::contacts`], from the states that it
+    /// goes through, straight between them.
+    pub fn pitting(&self) -> [Option<f64>; 4] {
+        let within = || self.states.iter().filter(|s| s.share <= 1.0);
+        std::array::from_fn(|i| {
+            let sums: Vec<[f64; 2]> =
+                within().map(|s| Some([s.share, s.pitting[i]?])).collect::<Option<_>>()?;
+            Some(sums.windows(2).map(|w| 0.5 * (w[1][0] - w[0][0]) * (w[0][1] + w[1][1])).sum())
+        })
+    }
+
     /// The part of the life after which a limit is broken, and which; `None`: not within a hundred lives.
     pub fn broken(&self) -> Option<(f64, Broken)> {
         self.states.last().and_then(|s| Some((s.share, s.broken?)))
@@ -316,6 +330,25 @@ impl March<'_> {
         worn.curve.at_normal(worn.curve.arc_end_n(0)).map_or(0.0, |p| p.torque_nm)
     }
 
+    /// Miner's sums of a whole life in the state `worn` of the worn `design`. On the edge of a flat, up to `on_edge_nm`, the inner contact
+    /// counts as pressed as in the drawn clutch under the same force.
+    fn pitting(&self, design: &Design, worn: &LoadState, on_edge_nm: f64) -> [Option<f64>; 4] {
+        let mut sums = [Some(0.0); 4];
+        for load in &self.life.loads {
+            let p = worn.curve.at_torque(load.torque_nm).and_then(|p| {
+                let on_edge = load.torque_nm <= on_edge_nm;
+                let drawn = if on_edge { self.state.curve.at_normal(p.normal_inner_n)? } else { p };
+                Some(StaticPoint { hertz_inner_pa: drawn.hertz_inner_pa, ..p })
+            });
+            let passes = p.map_or([0.0; 2], |p| passes(design, self.service, &p, walks_m(design, worn, &p)));
+            for (sum, place) in sums.iter_mut().zip(LifePlace::contacts()) {
+                let part = contact_part(self.service, p.as_ref(), place);
+                *sum = sum.zip(part).map(|(sum, part)| sum + load.engagements * place.times(passes) * part);
+            }
+        }
+        sums
+    }
+
     fn state(&self, share: f64, wear: &Wear) -> WornState {
         let found = worn_with(self.design, &self.state, wear, self.blunt);
         let turned_rad = found.as_ref().map_or(0.0, |w| w.turned_rad);
@@ -340,6 +373,7 @@ impl March<'_> {
             capacity: None,
             lift_off_rad_s: lift_off_rad_s(self.design, &relaxed, LIFT_OFF_TO_RAD_S),
             normal_n: point.map_or(0.0, |p| p.state.normal_inner_n),
+            pitting: [None; 4],
             broken: Some(Broken::Gap),
         };
         let Some(worn) = found else { return state };
@@ -371,6 +405,7 @@ impl March<'_> {
         let carries = lowest.as_ref().is_none_or(|(part, _)| *part >= 1.0);
         state.capacity = lowest.map(|(_, capacity)| capacity);
         state.first_tan_omega = Some(of_worn.first_tan_omega);
+        state.pitting = self.pitting(&design, &of_worn, on_edge_nm);
         let largest_nm = self.life.largest_nm;
         state.required_friction = of_worn.curve.at_torque(largest_nm).map(|p| p.required_friction());
         let asked = state.required_friction.unwrap_or(f64::INFINITY).max(of_worn.first_tan_omega);

@@ -1,6 +1,6 @@
 //! The profile as it wears, fed back into the clutch.
 use sprag_design::answer::Answer;
-use sprag_design::clutch::Service;
+use sprag_design::clutch::{PittingStrength, Service};
 use sprag_design::design::Design;
 use sprag_design::life::{Life, Wear, life, worn, worn_life, worn_state};
 use sprag_design::margin::{Capacities, LoadState, load_margins, load_state, lowest_capacity, overrun_at};
@@ -39,6 +39,43 @@ fn unworn_is_the_clutch_of_today() {
     assert_eq!(now.first_tan_omega, Some(state.first_tan_omega));
     assert_eq!(now.lift_off_rad_s, sprag_design::margin::lift_off_rad_s(&design, &state, 6283.185307179586));
     assert_eq!([now.flat_m, now.opened_m, now.share], [0.0; 3]);
+}
+
+/// The lubricated clutch in a longer life, with a strength of its contacts.
+fn pitted(hours: f64) -> Design {
+    let mut design = design(false, hours, 1.0);
+    design.service.as_mut().unwrap().pitting =
+        Some(PittingStrength { pressure_pa: 3e9, cycles: 1e6, exponent: 20.0 / 3.0 });
+    design
+}
+
+/// As drawn what a life uses up is what it uses up without wear; worn what it uses up in the clutch that is left; in between the integral.
+#[test]
+fn pitting_goes_with_the_worn_profile() {
+    let design = pitted(300.0);
+    let (service, drawn, state) = of(&design);
+    let sums = |life: &Life| -> Vec<f64> {
+        let contacts = life.used.iter().filter(|used| used.place.is_contact());
+        contacts.map(|used| used.sum.unwrap()).collect()
+    };
+    let found = worn_life(&design, &service, &drawn).unwrap().unwrap();
+    let within: Vec<_> = found.states.iter().filter(|s| s.share <= 1.0).collect();
+    assert_eq!(within[0].pitting.map(Option::unwrap).to_vec(), sums(&drawn));
+    let last = within[within.len() - 1];
+    assert!(last.share == 1.0 && last.flat_m > 5e-7, "{last:?}");
+    let left = Design { clutch: worn(&design, &state, &last.wear).unwrap().clutch, ..design.clone() };
+    let by_hand = sums(&life(&left, &service).unwrap());
+    for (i, by_hand) in by_hand.iter().enumerate() {
+        let there = last.pitting[i].unwrap();
+        println!("{i}: drawn {}, worn {there}, by hand {by_hand}", sums(&drawn)[i]);
+        assert!((there / by_hand - 1.0).abs() < 1e-3, "{i}: {there} {by_hand}");
+        let over_life = found.pitting()[i].unwrap();
+        let half = over_life - 0.5 * (sums(&drawn)[i] + there);
+        assert!(
+            half.abs() < 0.5 * (there - sums(&drawn)[i]).abs() && there != sums(&drawn)[i],
+            "{i}: {over_life}"
+        );
+    }
 }
 
 /// V = k int N ds by hand: the force at the start, that falls by parts in a thousand in so short a life.

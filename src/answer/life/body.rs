@@ -150,16 +150,21 @@ impl LifeAnswer<'_> {
     /// Each place: what is used up.
     pub fn places(&self) -> Rows<&Used> {
         let verdict = |used: &Used| match used.sum {
-            Some(sum) => Cell::held(sum <= 1.0),
+            Some(sum) => Cell::held(sum <= 1.0 && self.used_worn(used.place).is_none_or(|sum| sum <= 1.0)),
             None if self.life.loads.iter().any(|l| l.state.is_none()) => "torque not carried".into(),
             None => "strength not given".into(),
         };
-        Rows::of(&self.life.used)
+        let worn = |used: &&Used| self.used_worn(used.place);
+        let rows = Rows::of(&self.life.used)
             .text("place", "Place", |used| used.place.names().1)
             .number("cycles", "Cycles", Unit::One, 4, |used| used.cycles)
             .number("used", "Used up", Unit::One, 3, |used| used.sum)
-            .shown_in(Unit::Percent)
-            .number("lives", "Lives", Unit::One, 3, |used| used.lives().filter(|l| l.is_finite()))
+            .shown_in(Unit::Percent);
+        let rows = match self.worn.is_some() {
+            true => rows.number("used_worn", "As it wears", Unit::One, 3, worn).shown_in(Unit::Percent),
+            false => rows.json("used_worn", worn),
+        };
+        rows.number("lives", "Lives", Unit::One, 3, |used| used.lives().filter(|l| l.is_finite()))
             .number("mostly_at_nm", "Mostly at", Unit::NewtonMetre, 4, |used| {
                 used.sum.map(|_| used.mostly_nm)
             })

@@ -159,10 +159,23 @@ impl LifeAnswer<'_> {
         self.worn.as_ref()?.broken().filter(|(share, _)| *share <= 1.0)
     }
 
+    /// Miner's sum of a place that contacts press, over the life of the clutch as it wears; `None` where nothing is known to wear, or the
+    /// strength is not given.
+    pub fn used_worn(&self, place: LifePlace) -> Option<f64> {
+        let sums = self.worn.as_ref()?.pitting();
+        LifePlace::contacts().zip(sums).find(|(contact, _)| *contact == place)?.1
+    }
+
+    /// The place that is used up before the end of the life as it wears, and how far.
+    fn pitted(&self) -> Option<(LifePlace, f64)> {
+        let sums = LifePlace::contacts().filter_map(|place| Some((place, self.used_worn(place)?)));
+        sums.filter(|(_, sum)| *sum > 1.0).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// How much the answer knows.
     pub fn known(&self) -> LifeKnown {
         match (
-            self.life.held() && self.worn_out().is_none(),
+            self.life.held() && self.worn_out().is_none() && self.pitted().is_none(),
             self.life.decides(),
             self.not_known().is_empty(),
         ) {
@@ -283,8 +296,8 @@ impl Said for LifeAnswer<'_> {
             ),
             LeftOut::new(
                 "wear, lubricant, residual stress",
-                "wear: with `overruns` and oil, by Archard, with the film of the drawn contact; it does not change \
-                 pitting and fatigue; the others: no model",
+                "wear: with `overruns` and oil, by Archard, with the film of the drawn contact; it changes pitting by the forces and \
+                 pressures of the worn profile, takes no cracks away, and does not change fatigue of rings and bodies; the others: no model",
                 "unknown; pitting strengths hold for the lubricant and surface that they were found with",
             ),
         ];
@@ -313,7 +326,7 @@ impl Said for LifeAnswer<'_> {
             );
         }
         page.heading("Places").table(
-            "Used up: Miner's sum over this life; lives: how often it fits in. Cycles of a track: contacts that one place of it sees.",
+            "Used up: Miner's sum over this life, of the clutch as drawn and as it wears; lives: how often it fits in. Cycles of a track: contacts that one place of it sees.",
             &self.places().table(),
         );
         page.heading("Loads").table(

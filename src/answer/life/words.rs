@@ -61,6 +61,13 @@ impl LifeAnswer<'_> {
         if let Some((share, why)) = self.worn_out() {
             return format!("NOT HELD: after {} of the life {}", Unit::Percent.show(share, 3), why.names().1);
         }
+        if let Some((place, sum)) = self.pitted().filter(|_| life.held()) {
+            return format!(
+                "NOT HELD: as the clutch wears, {} uses up {} of its life",
+                place.names().1,
+                Unit::Percent.show(sum, 3)
+            );
+        }
         if let Some(load) = life.slipping() {
             return format!(
                 "NOT HELD: it slips at {}: that needs a friction of {}, and {} is there in the mean",
