@@ -303,6 +303,12 @@ impl<'a> Unlike<'a> {
         }
     }
 
+    /// What sets sprag `i` apart as made when torque begins, between races on one axis: its size, and its tracks.
+    pub fn as_made(&self, i: usize) -> SpragDeviation {
+        let [inner_m, outer_m] = self.made_m(i, 0.0);
+        SpragDeviation { size_m: self.sprags[i].size_m, inner_m, outer_m, ..SpragDeviation::default() }
+    }
+
     /// How much inner and outer track recede from the gap at sprag `i` as they are made, m, when the widest gap has turned on by
     /// `turned_rad`. The outer track stays with the sprags, the inner one with the widest gap; what they walk on their tracks meanwhile is
     /// small beside a lobe.

@@ -3,7 +3,7 @@
 //! In: a scenario, `Sharing`. Out: [`EachSprag`]. Absent: allowables, units, the equations themselves (`dynamics`).
 //! Equations: those of [`crate::dynamics::run_many`].
 //!
-//! Every sprag has its own curve (its size), its own friction (static and kinetic in one ratio) and its own lag (its
+//! Every sprag has its own curve (its size, and its tracks where they are out of round as made), its own friction (static and kinetic in one ratio) and its own lag (its
 //! gap, or its size where a cage holds all), drawn and given as for statics. Where the axes of the races do not meet,
 //! or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the races bend
 //! under sprags unlike one another ([`Rings`]), without inertia.
@@ -46,11 +46,6 @@ pub enum NoEachSprag {
     /// The mean speed changes, and each sprag has a curve of its own.
     #[error("sprags one by one need a constant mean speed: leave its history out of the scenario")]
     SpeedCourse,
-    /// Tracks are out of round as made.
-    #[error(
-        "tracks out of round as made are looked at at rest alone: leave [[sharing.tracks]] out for a scene"
-    )]
-    TracksAsMade,
     /// The scene has a drivetrain.
     #[error("sprags one by one move no drivetrain: give the scenario drivetrain = []")]
     Drivetrain,
@@ -103,6 +98,8 @@ pub struct EachSprag {
     pub off_centre: [f64; 2],
     /// That torque, N m.
     pub largest_nm: f64,
+    /// Windup of sprags alike under it, rad; 0 beyond the curve.
+    pub windup_rad: f64,
     /// Races that bend; `None`: nothing in the scene feels that, there are too many sprags, or the law of contact is too stiff.
     pub bends: Option<BendingRaces>,
 }
@@ -172,9 +169,6 @@ impl Many {
         if !scenario.drivetrain.is_empty() {
             return Err(NoEachSprag::Drivetrain);
         }
-        if !sharing.tracks.is_empty() {
-            return Err(NoEachSprag::TracksAsMade);
-        }
         let alike = prepare(scenario).map_err(NoEachSprag::NoScenario)?;
         let clutch = &scenario.clutch;
         let curve = &alike.model.curve;
@@ -194,12 +188,10 @@ impl Many {
         let lag = |i: usize| unlike.lag_rad[i].map(|lag| lag - first).filter(|lag| *lag > TOGETHER_RAD);
         let able: Vec<usize> = (0..unlike.sprags.len()).filter(|&i| unlike.lag_rad[i].is_some()).collect();
         let bends = bends && uneven(&unlike) && able.len() <= MOST_KINDS;
-        // A deviation of -0 is none.
         let key = |i: usize| {
-            let s = &unlike.sprags[i];
             (
-                (s.size_m + 0.0).to_bits(),
-                s.friction.to_bits(),
+                made_bits(&unlike, i),
+                unlike.sprags[i].friction.to_bits(),
                 lag(i).map(f64::to_bits),
                 (apart || bends || axes.is_some()).then_some(i),
             )
@@ -219,7 +211,7 @@ impl Many {
         let law = Stribeck::of(&clutch.friction);
         let of = |(g, &i): (usize, &usize)| {
             let sprag = &unlike.sprags[i];
-            let own = curve.of_size(sprag.size_m).map_err(|why| NoEachSprag::Curve(i, why))?;
+            let own = curve.of_sprag(unlike.as_made(i)).map_err(|why| NoEachSprag::Curve(i, why))?;
             let kinetic = law.kinetic * (sprag.friction / law.static_);
             let friction = Stribeck { static_: sprag.friction, kinetic, ..law };
             let count = group.iter().filter(|of| **of == Some(g)).count();
@@ -241,7 +233,7 @@ impl Many {
         let even = axes.is_none()
             && able.len() == unlike.sprags.len()
             && groups.iter().all(|g| g.lag_rad.is_none())
-            && unlike.sprags.iter().all(|s| s.size_m == 0.0)
+            && (0..unlike.sprags.len()).all(|i| made_bits(&unlike, i) == [0; 3])
             && (rings.is_none()
                 || (0..unlike.sprags.len()).all(|i| unlike.sprags[i].azimuth_rad == even_rad(&unlike, i)));
         let start = match alike.free_run {
@@ -318,12 +310,18 @@ fn even_rad(unlike: &Unlike<'_>, i: usize) -> f64 {
     std::f64::consts::TAU * i as f64 / unlike.sprags.len() as f64
 }
 
+/// What sets sprag `i` and its tracks apart as made, equal where they are; a deviation of -0 is none.
+fn made_bits(unlike: &Unlike<'_>, i: usize) -> [u64; 3] {
+    let made = unlike.as_made(i);
+    [made.size_m, made.inner_m, made.outer_m].map(|m| (m + 0.0).to_bits())
+}
+
 /// Whether the sprags are unlike one another.
 fn uneven(unlike: &Unlike<'_>) -> bool {
     (0..unlike.sprags.len()).any(|i| {
         let (s, first) = (&unlike.sprags[i], &unlike.sprags[0]);
         unlike.idle[i].is_some()
-            || s.size_m != first.size_m
+            || made_bits(unlike, i) != made_bits(unlike, 0)
             || s.gap_m != first.gap_m
             || s.friction != first.friction
             || s.azimuth_rad != even_rad(unlike, i)
@@ -347,7 +345,7 @@ fn rings(
         let of = SpragApproach::new(&groups[g].model.curve);
         of.map(Arc::new).ok_or(NoEachSprag::Curve(kinds[g], NoCurve::NoConvergence))
     };
-    let approaches = one_for_each_size(groups.len(), |g| unlike.sprags[kinds[g]].size_m, approach)?;
+    let approaches = one_for_each_made(groups.len(), |g| made_bits(unlike, kinds[g]), approach)?;
     let elastic = &curve.statics().elastic;
     Ok(Rings {
         opens_m_per_n: unlike.opens_m_per_n(kinds, inner, outer),
@@ -356,19 +354,17 @@ fn rings(
     })
 }
 
-/// `made` of each of so many groups, once for those of one size.
-fn one_for_each_size<T: Send + Sync>(
+/// `found` of each of so many groups, once for those that are made alike.
+fn one_for_each_made<T: Send + Sync>(
     groups: usize,
-    size_m: impl Fn(usize) -> f64 + Sync,
-    made: impl Fn(usize) -> Result<Arc<T>, NoEachSprag> + Sync,
+    made: impl Fn(usize) -> [u64; 3] + Sync,
+    found: impl Fn(usize) -> Result<Arc<T>, NoEachSprag> + Sync,
 ) -> Result<Vec<Arc<T>>, NoEachSprag> {
-    // A deviation of -0 is none.
-    let size = |g: usize| (size_m(g) + 0.0).to_bits();
-    let firsts: Vec<usize> = (0..groups).filter(|&g| (0..g).all(|before| size(before) != size(g))).collect();
-    let all: Vec<_> = firsts.par_iter().map(|&g| made(g)).collect();
+    let firsts: Vec<usize> = (0..groups).filter(|&g| (0..g).all(|before| made(before) != made(g))).collect();
+    let all: Vec<_> = firsts.par_iter().map(|&g| found(g)).collect();
     let all = all.into_iter().collect::<Result<Vec<_>, _>>()?;
     let of = |g: usize| {
-        firsts.iter().zip(&all).find(|(first, _)| size(**first) == size(g)).map(|(_, t)| t.clone())
+        firsts.iter().zip(&all).find(|(first, _)| made(**first) == made(g)).map(|(_, t)| t.clone())
     };
     Ok((0..groups).filter_map(of).collect())
 }
@@ -417,7 +413,7 @@ fn reach_m(axes: &Axes, unlike: &Unlike<'_>, scenario: &Scenario, alike: &Prepar
     axes.offset_m + (FURTHER * shift).max(SHIFTS[0] * axes.offset_m).max(SHIFTS[1])
 }
 
-/// Put every group where it stands between axes that lie up to `reach_m` off; those of one size share a table.
+/// Put every group where it stands between axes that lie up to `reach_m` off; those made alike share a table.
 fn stand_off_centre(
     groups: &mut [SpragGroup],
     unlike: &Unlike<'_>,
@@ -428,7 +424,7 @@ fn stand_off_centre(
         let of = AxisTurns::new(&groups[g].model.curve, reach_m);
         of.map(Arc::new).map_err(|why| NoEachSprag::Curve(kinds[g], why))
     };
-    let tables = one_for_each_size(groups.len(), |g| unlike.sprags[kinds[g]].size_m, table)?;
+    let tables = one_for_each_made(groups.len(), |g| made_bits(unlike, kinds[g]), table)?;
     for ((group, turns), kind) in groups.iter_mut().zip(tables).zip(kinds) {
         group.off_centre = Some(OffCentre { azimuth_rad: unlike.sprags[*kind].azimuth_rad, turns });
     }
@@ -516,6 +512,10 @@ pub fn each_sprag(
         axes,
         off_centre,
         largest_nm,
+        windup_rad: at_rest
+            .as_ref()
+            .and_then(|curve| curve.at_torque(largest_nm))
+            .map_or(0.0, |p| p.windup_rad),
         bends,
     })
 }

@@ -140,17 +140,16 @@ impl WedgeCurve {
         Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
     }
 
-    /// This curve, its speed and effort kept, of a sprag that measures `size_m` (m) more across its contacts, half of it at each. The
-    /// windup counts from that sprag's own first contact.
+    /// This curve, its speed and effort kept, of a sprag that is set apart so. The windup counts from that sprag's own first contact.
     ///
     /// # Errors
     /// As [`Self::build`].
-    pub fn of_size(&self, size_m: f64) -> Result<Self, NoCurve> {
-        if size_m == 0.0 {
+    pub fn of_sprag(&self, apart: SpragDeviation) -> Result<Self, NoCurve> {
+        if apart == SpragDeviation::default() {
             return Ok(self.clone());
         }
         let mut statics = self.statics.clone();
-        statics.set_apart(SpragDeviation { size_m, ..SpragDeviation::default() });
+        statics.set_apart(apart);
         Self::march(statics, self.exponent, self.speed_rad_s, None, self.effort, None)
     }
 

@@ -1,7 +1,7 @@
 //! Sprags one by one in a scene: alike they are the one-sprag model, unlike they are what statics and an independent script say.
 
 use crate::scenes::scene;
-use sprag_design::clutch::{Friction, GivenSprag, ScenarioKind, Sharing};
+use sprag_design::clutch::{Friction, GivenSprag, Scenario, ScenarioKind, Sharing, Standing, TrackWave};
 use sprag_design::dynamics::{ManySample, RunSettings, Sample, SpragCourse, Stop, run, settled_together};
 use sprag_design::scenario::{Settings, prepare};
 use sprag_design::sharing::{Asked, Bears, Unlike};
@@ -191,6 +191,63 @@ fn a_torque_that_rises_slowly_is_shared_as_statics_shares_it() {
     }
     let doubled = beside[2] / beside[1];
     assert!((doubled - 2.0).abs() < 0.1, "{beside:?}");
+}
+
+/// A load that settles between oval tracks: each sprag as statics has it, nearer the smaller the oval. As many lobes as sprags are a track of
+/// another radius for all of them, in a swing too.
+#[test]
+fn tracks_out_of_round_as_made_are_shared_as_statics_shares_them() {
+    let wave = |outer: bool, lobes: usize, amplitude_m: f64| TrackWave {
+        outer,
+        lobes,
+        amplitude_m,
+        azimuth_rad: 0.0,
+    };
+    let mut slow = scene("huang2017-bench", "step-up");
+    slow.torque_history = Some(vec![[0.0, 1.0], [0.5, 40.0], [1.2, 40.0]]);
+    slow.clutch.spring.stiffness_nm_per_rad = 0.0;
+    slow.clutch.races.eccentricity = None;
+    let ScenarioKind::Transient { duration_s, .. } = &mut slow.kind else { panic!() };
+    *duration_s = 1.2;
+    let curve = WedgeCurve::build(&slow.clutch, &slow.clutch.profile().unwrap(), 0.0).unwrap();
+    let mut beside = Vec::new();
+    for amplitude_m in [1.5e-6, 3e-6] {
+        let tracks = vec![wave(true, 2, amplitude_m), wave(false, 3, 0.5 * amplitude_m)];
+        let sharing = Sharing { tracks, start: Standing::Caged, ..Sharing::default() };
+        let many = Many::new(&slow, &sharing, false).unwrap();
+        let all = many.run(&Settings::default(), 1e-9, 13);
+        assert_eq!((all.stop, all.inconsistent_choices), (Stop::Finished, 0));
+        let last = all.samples.last().unwrap();
+        let unbent = Unlike::new(&slow.clutch, &sharing, &curve, 0.0).unbent();
+        let shared = unbent.carrying(Asked::Torque(40.0), 0.0).unwrap();
+        let normal_n = |i: usize| last.normal_n[many.group[i].unwrap()];
+        let off = |(i, load): (usize, &Bears)| (normal_n(i) / load.normal_inner_n - 1.0).abs();
+        let off = shared.loads.iter().enumerate().map(off).fold(0.0, f64::max);
+        let uneven = shared.shares().iter().fold(0.0, |m: f64, s| m.max((s - 1.0).abs()));
+        println!("{amplitude_m:e}: beside `sharing` {off:.2e}, shares differ by {uneven:.2e}");
+        assert!(off < 1.5 * amplitude_m / 4.02e-3 && uneven > 20.0 * off, "{off:e} {uneven:e}");
+        beside.push(off);
+    }
+    assert!((beside[1] / beside[0] - 2.0).abs() < 0.2, "{beside:?}");
+
+    // One arc: junctions count from first contact, and would lie elsewhere on the sprag for another radius.
+    let swing = scene("huang2017-single-arc", "low-10");
+    let count = swing.clutch.sprags.count;
+    let peak = |scene: &Scenario, sharing: &Sharing| {
+        let all = Many::new(scene, sharing, false).unwrap().run(&Settings::default(), 1e-9, 2);
+        assert_eq!(all.stop, Stop::Finished);
+        all.courses.iter().map(|c| c.normal_max_n).fold(0.0, f64::max)
+    };
+    let plain = peak(&swing, &Sharing::default());
+    for outer in [false, true] {
+        let lobed = peak(&swing, &Sharing { tracks: vec![wave(outer, count, 1e-5)], ..Sharing::default() });
+        let mut other = swing.clone();
+        let races = &mut other.clutch.races;
+        *[&mut races.inner_radius_m, &mut races.outer_radius_m][usize::from(outer)] += 1e-5;
+        let expected = peak(&other, &Sharing::default());
+        println!("{outer}: {lobed} N, with another radius {expected}, without {plain}");
+        assert!(((lobed - expected) / (expected - plain)).abs() < 0.1, "{lobed} {expected} {plain}");
+    }
 }
 
 /// Two kinds by `tests/reference/each_sprag.py`: eleven as drawn, one larger and smoother that slips once and holds again.

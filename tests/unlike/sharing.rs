@@ -53,7 +53,7 @@ fn sprags_alike_between_concentric_races_are_the_curve() {
 }
 
 /// Tracks out of round as made. As many lobes as sprags: a track of another radius. An oval under a cage: sprags of other sizes. The inner
-/// lobes pass the sprags in a turn, the outer ones stay. None of it in a scene.
+/// lobes pass the sprags in a turn, the outer ones stay. A scene has them too.
 #[test]
 fn tracks_out_of_round_as_made() {
     // One arc: junctions count from first contact, and would lie elsewhere on the sprag for another radius.
@@ -108,8 +108,8 @@ fn tracks_out_of_round_as_made() {
         .replace("friction_within = 0.01", &format!("{design}\nfriction_within = 0.01"));
     let design = Design::parse(&text, &path).unwrap();
     assert!(design.sharing(None).unwrap().text(Default::default()).contains("2 lobes of 5.00 µm"));
-    let why = design.sharing_in_scene("engagement", &Default::default()).unwrap_err().to_string();
-    assert!(why.contains("sharing.tracks"), "{why}");
+    let scene = design.sharing_in_scene("engagement", &Default::default()).unwrap();
+    assert!(scene.found.counts.len() > 3, "{:?}", scene.found.counts);
 }
 
 /// Two sprags, one of which lacks 20 um of size at the start: on rings so stiff that they do not bend, both see one windup, the second

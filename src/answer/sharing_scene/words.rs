@@ -130,6 +130,23 @@ impl SharingSceneAnswer<'_> {
         )
     }
 
+    /// What the inner track, out of round as made, does to the gaps while it turns on against the sprags; `None`: it is round.
+    fn inner_track_turning(&self) -> Option<LeftOut> {
+        let waves = self.design.sharing.as_ref()?.tracks.iter().filter(|wave| !wave.outer);
+        let steepest_m = waves.map(|wave| wave.lobes as f64 * wave.amplitude_m).reduce(f64::max)?;
+        let windup_rad = self.found.windup_rad;
+        Some(LeftOut::new(
+            "an inner track out of round that turns on against the sprags",
+            "it stands as when torque begins",
+            &format!(
+                "by its windup under {}, {}, it moves a gap by {} at most, and by slip in proportion",
+                Unit::NewtonMetre.show(self.found.largest_nm, 4),
+                Unit::Degree.show(windup_rad, 2),
+                Unit::Micrometre.show(steepest_m * windup_rad, 2)
+            ),
+        ))
+    }
+
     pub(super) fn left_out(&self) -> Vec<LeftOut> {
         let mut instead = vec![
             self.bending_left_out(),
@@ -151,6 +168,7 @@ impl SharingSceneAnswer<'_> {
                 ),
             ));
         }
+        instead.extend(self.inner_track_turning());
         one_by_one(self.design, instead)
     }
 
