@@ -60,6 +60,7 @@ fn values(designs: &[toml::Value], path: &str) -> Option<[f64; 2]> {
 
 /// What is typical of numbers that no design of the repository names: the end of their dotted keys, and values met in practice.
 const TYPICAL: &[(&str, &str)] = &[
+    ("cage.clearance_um", "0 … 20"),
     ("contact.axial_offset_mm", "0 … 0.5"),
     ("contact.hunt_crossley_s_per_m", "0.1 … 0.5, hardened steel"),
     ("contact.slices", "60"),

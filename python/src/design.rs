@@ -302,7 +302,7 @@ impl Design {
         })?;
         answer.unwrap_or_else(|why| match why {
             NoOverrun::NoClutch(why) => Err(errors::no_clutch(py, &why)),
-            NoOverrun::NoLubrication | NoOverrun::Setting(_) => {
+            NoOverrun::NoLubrication | NoOverrun::AtSpeed { .. } | NoOverrun::Setting(_) => {
                 Err(PyValueError::new_err(format!("{}: {why}", self.file)))
             }
         })

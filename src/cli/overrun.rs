@@ -69,7 +69,9 @@ impl Run for OverrunArgs {
             let (found, run_time_s) = timed(|| design.overrun(&question));
             let found = found.map_err(|why| match why {
                 NoOverrun::NoClutch(why) => Failure::no_clutch(file, &why),
-                NoOverrun::NoLubrication | NoOverrun::Setting(_) => Failure::of(file, why),
+                NoOverrun::NoLubrication | NoOverrun::AtSpeed { .. } | NoOverrun::Setting(_) => {
+                    Failure::of(file, why)
+                }
             })?;
             context.deliver(&found, run_time_s)
         })

@@ -31,9 +31,9 @@ use crate::wedge::WedgeCurve;
 
 /// A point of a sprag: how far from the axis of the clutch, m, and by which azimuth ahead of C_e, rad.
 #[derive(Clone, Copy)]
-struct Point {
-    radius: f64,
-    ahead: f64,
+pub(super) struct Point {
+    pub radius: f64,
+    pub ahead: f64,
 }
 
 impl Point {
@@ -61,16 +61,16 @@ impl Point {
 
 /// A sprag in a cage at a speed: at first contact, or tilted open from it.
 #[derive(Clone, Copy)]
-struct Held {
-    oa: f64,
-    ob: f64,
-    oc_e: f64,
-    p: Point,
-    g: Point,
-    c_1: Point,
-    alpha: f64,
-    mass_kg: f64,
-    cage_rad_s: f64,
+pub(super) struct Held {
+    pub oa: f64,
+    pub ob: f64,
+    pub oc_e: f64,
+    pub p: Point,
+    pub g: Point,
+    pub c_1: Point,
+    pub alpha: f64,
+    pub mass_kg: f64,
+    pub cage_rad_s: f64,
 }
 
 /// Forces on one sprag whose B presses with a given force.
@@ -91,7 +91,7 @@ impl Balance {
 
 impl Held {
     /// At first contact. `touch` is a curve whose first contact has the growth of the outer race.
-    fn new(clutch: &Clutch, cage: &Cage, touch: &WedgeCurve, cage_rad_s: f64) -> Self {
+    pub fn new(clutch: &Clutch, cage: &Cage, touch: &WedgeCurve, cage_rad_s: f64) -> Self {
         let c = touch.touch();
         let p = centroid(cage.pivot_m, c.lengths.oc_e, c.rotation);
         let oa = c.lengths.oa.v;
@@ -110,7 +110,7 @@ impl Held {
     }
 
     /// Tilted open by `tilt` from first contact, a gap at B; none of either leaves it as it is.
-    fn tilted(&self, tilt: f64, gap: f64) -> Self {
+    pub fn tilted(&self, tilt: f64, gap: f64) -> Self {
         if tilt == 0.0 && gap == 0.0 {
             return *self;
         }
@@ -153,7 +153,7 @@ impl Held {
     }
 
     /// Azimuth of A ahead of P, rad.
-    fn to_a(&self) -> f64 {
+    pub fn to_a(&self) -> f64 {
         self.c_1.ahead - self.p.ahead
     }
 
@@ -168,12 +168,12 @@ impl Held {
     }
 
     /// What the spring turns closed about P, N m.
-    fn closing_nm(&self, clutch: &Clutch, alpha_max_rad: f64) -> f64 {
+    pub fn closing_nm(&self, clutch: &Clutch, alpha_max_rad: f64) -> f64 {
         clutch.spring.stiffness_nm_per_rad * (alpha_max_rad - self.alpha)
     }
 
     /// What neither B, pressed by `n` (N), nor the inner race bears of the force outward at P, N.
-    fn outward_n(&self, n: f64, b: &SlidingContact) -> f64 {
+    pub fn outward_n(&self, n: f64, b: &SlidingContact) -> f64 {
         let (sin, _) = self.p.ahead.sin_cos();
         self.centrifugal_n() * self.pi().cos()
             - n * ((self.p.ahead - b.ahead_m / self.ob).cos() + b.friction * sin)
@@ -181,23 +181,28 @@ impl Held {
 
     /// N_be = `n` (N), B sliding.
     fn at(&self, n: f64, b: &SlidingContact) -> Balance {
-        let SlidingContact { friction: mu, ahead_m, .. } = *b;
-        let (op, ob, f_c) = (self.p.radius, self.ob, self.centrifugal_n());
-        let sin_b = (self.p.ahead - ahead_m / ob).sin();
-        let (_, cos) = self.p.ahead.sin_cos();
         let (sin_a, cos_a) = self.to_a().sin_cos();
         let outward = self.outward_n(n, b);
         let normal_inner_n = (-outward).max(0.0) / cos_a;
-        let along = f_c * self.pi().sin() - n * (sin_b - mu * cos) - normal_inner_n * sin_a;
+        let sin_b = (self.p.ahead - b.ahead_m / self.ob).sin();
+        let at_b = n * (sin_b - b.friction * self.p.ahead.cos());
+        let along = self.centrifugal_n() * self.pi().sin() - at_b - normal_inner_n * sin_a;
         Balance {
             normal_inner_n,
             cage_n: [outward.max(0.0), along],
-            opening_nm: [
-                n * (op * sin_b + mu * (ob - op * cos)),
-                normal_inner_n * op * sin_a,
-                self.lifting_nm(),
-            ],
+            opening_nm: self.opening_nm(n, b, normal_inner_n),
         }
+    }
+
+    /// What turns the sprag open about P, N m: B pressed by `n`, A by `normal_inner_n` (N), the centrifugal force.
+    pub fn opening_nm(&self, n: f64, b: &SlidingContact, normal_inner_n: f64) -> [f64; 3] {
+        let (op, ob) = (self.p.radius, self.ob);
+        let sin_b = (self.p.ahead - b.ahead_m / ob).sin();
+        [
+            n * (op * sin_b + b.friction * (ob - op * self.p.ahead.cos())),
+            normal_inner_n * op * self.to_a().sin(),
+            self.lifting_nm(),
+        ]
     }
 }
 

@@ -9,6 +9,7 @@
 //! v is race minus sprag surface; in slip T_bi = -sgn(v_A) mu N_bi and T_be = +sgn(v_B) mu N_be.
 
 mod cage;
+mod cage_swing;
 mod change;
 mod choose;
 mod crossing;
@@ -40,6 +41,7 @@ mod watch;
 mod zeno;
 
 pub use cage::{CageFacts, overrun_in_cage, pivot_moments};
+pub use cage_swing::{swing_in_cage, swing_in_cage_with_friction};
 pub use drive::{Drive, FlangeDrive, Loads, Ramp};
 pub use energy::EnergyBalance;
 pub use many::{

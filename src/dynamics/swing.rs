@@ -28,7 +28,7 @@ const RESOLVED: f64 = 1e-7;
 
 impl Swing {
     /// Of the eigenvalue with the largest real part; a growth that is not resolved is none.
-    fn of(growth_rate_per_s: f64, rad_s: f64, normal_inner_n: f64) -> Self {
+    pub(super) fn of(growth_rate_per_s: f64, rad_s: f64, normal_inner_n: f64) -> Self {
         let resolved = growth_rate_per_s.abs() > RESOLVED * rad_s;
         Self {
             growth_rate_per_s: if resolved { growth_rate_per_s } else { 0.0 },

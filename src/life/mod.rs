@@ -12,15 +12,14 @@
 //! section, pressed by the strut force and bent by it.
 
 pub mod count;
+mod outline_worn;
 pub mod slip;
 mod wear;
 mod worn;
 
+pub use outline_worn::{BLUNT, BLUNT_BY_RADIUS, Worn, worn};
 pub use wear::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
-pub use worn::{
-    BLUNT, BLUNT_BY_RADIUS, Broken, Wear, Worn, WornLife, WornState, worn, worn_life, worn_life_with,
-    worn_state,
-};
+pub use worn::{Broken, Wear, WornLife, WornState, worn_life, worn_life_with, worn_state};
 
 use crate::clutch::{FatigueStrength, PittingStrength, Service};
 use crate::design::Design;

@@ -135,3 +135,14 @@ pub fn squeeze_n_s_per_m(contact: &FilmContact, fluid: &Fluid, thickness_m: f64)
     let j = second - third - first * first / third;
     12.0 * fluid.viscosity_pa_s * contact.length_m * (2.0 * contact.radius_m / least).powf(1.5) * j
 }
+
+/// Time in which `load_n` squeezes a film of that thickness down to `to_m`, s, its pressure balancing the load by
+/// [`squeeze_n_s_per_m`] alone: c goes with h^(-3/2), so t = 2 c h (sqrt(h/h_to) - 1)/N. 0 where it is as thin already.
+pub fn squeeze_out_s(contact: &FilmContact, fluid: &Fluid, thickness_m: f64, to_m: f64, load_n: f64) -> f64 {
+    if thickness_m <= to_m {
+        return 0.0;
+    }
+    let damping = squeeze_n_s_per_m(contact, fluid, thickness_m);
+    let least_m = thickness_m / (1.0 + BREAKS * BREAKS);
+    2.0 * damping * least_m * ((thickness_m / to_m).sqrt() - 1.0) / load_n
+}

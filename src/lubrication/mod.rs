@@ -13,7 +13,7 @@ mod shear;
 mod viscosity;
 mod wear;
 
-pub use film::{Film, FilmContact, Fluid, Regime, film, squeeze_n_s_per_m};
+pub use film::{Film, FilmContact, Fluid, Regime, film, squeeze_n_s_per_m, squeeze_out_s};
 pub use heat::{
     Heat, Network, STEEL_CONDUCTIVITY, STEEL_DIFFUSIVITY_M2_S, STEEL_EFFUSIVITY, Temperatures, flash_k,
     moving_strip, standing_strip,

@@ -28,8 +28,7 @@ pub struct OverrunPoint {
     pub state: Overrun,
     /// That contact on its film, and its heat; `None` without `[lubrication]` and where it is open.
     pub lubricated: Option<Lubricated>,
-    /// The small swing about that equilibrium, races at constant speeds; `None` where A is open or nothing slides, and in a
-    /// driven cage.
+    /// The small swing about that equilibrium, races at constant speeds; `None` where the sliding contact is open or nothing slides.
     pub swing: Option<Swing>,
     /// The same with the film's friction alone, without its squeeze; `None` without a film.
     pub swing_by_friction: Option<Swing>,
@@ -115,8 +114,8 @@ fn point(design: &Design, state: &LoadState, curve: &WedgeCurve, ahead_rad_s: f6
         lubricated: found.lubricated,
         swing_by_friction: found
             .lubricated
-            .and_then(|l| l.swing_by_friction(&found.state, clutch, curve, state.alpha_max_rad, speed_rad_s)),
-        swing: found.swing(clutch, curve, state.alpha_max_rad, speed_rad_s),
+            .and_then(|l| l.swing_by_friction(&found.state, clutch, curve, state.alpha_max_rad, ahead_rad_s)),
+        swing: found.swing(clutch, curve, state.alpha_max_rad, ahead_rad_s),
         growth_m: ring.centrifugal_bore_growth_m(curve.speed_rad_s()),
         rotation_hoop_pa: ring.rotating_bore_hoop_pa(curve.speed_rad_s()),
     }

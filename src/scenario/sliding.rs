@@ -1,12 +1,13 @@
 //! Steady overrun as it is: friction by (12), or by the film at the temperature of its heat balance.
 
 use super::prepare::sliding_friction;
-use crate::clutch::{Clutch, Lubrication};
+use crate::clutch::{Clutch, Lubrication, Scenario};
 use crate::dynamics::{
-    Overrun, SlidingContact, Swing, overrun_in_cage, overrun_under, swing_on_film, swing_with_friction,
+    Overrun, SlidingContact, Swing, overrun_in_cage, overrun_under, swing_in_cage,
+    swing_in_cage_with_friction, swing_on_film, swing_with_friction,
 };
 use crate::friction::{FilmFriction, FilmState};
-use crate::lubrication::{FilmContact, Heat, Network, moving_strip, standing_strip};
+use crate::lubrication::{FilmContact, Heat, Network, moving_strip, squeeze_out_s, standing_strip};
 use crate::numeric::root;
 use crate::wedge::WedgeCurve;
 use std::f64::consts::PI;
@@ -76,20 +77,26 @@ fn settled(
     }
 }
 
+/// Speed of a driven cage, rad/s, and at which B slides in it, m/s; arguments as of [`sliding()`].
+fn in_cage(clutch: &Clutch, curve: &WedgeCurve, ahead_rad_s: f64) -> [f64; 2] {
+    [curve.speed_rad_s() + ahead_rad_s, ahead_rad_s.abs() * clutch.sliding_track_m()]
+}
+
 impl Sliding {
-    /// The small swing about it, A sliding at `sliding_rad_s`; other arguments as of [`sliding()`]. None known in a driven cage.
+    /// The small swing about it; arguments as of [`sliding()`].
     pub fn swing(
         &self,
         clutch: &Clutch,
         curve: &WedgeCurve,
         alpha_max_rad: f64,
-        sliding_rad_s: f64,
+        ahead_rad_s: f64,
     ) -> Option<Swing> {
-        if clutch.slides_outside() {
-            return None;
-        }
         let film = self.lubricated.as_ref().map(|l| &l.law);
-        swing_on_film(clutch, curve, alpha_max_rad, &self.state, sliding_rad_s, film)
+        if clutch.slides_outside() {
+            let speeds = in_cage(clutch, curve, ahead_rad_s);
+            return swing_in_cage(clutch, curve, alpha_max_rad, &self.state, speeds, film);
+        }
+        swing_on_film(clutch, curve, alpha_max_rad, &self.state, ahead_rad_s.abs(), film)
     }
 }
 
@@ -101,13 +108,36 @@ impl Lubricated {
         clutch: &Clutch,
         curve: &WedgeCurve,
         alpha_max_rad: f64,
-        sliding_rad_s: f64,
+        ahead_rad_s: f64,
     ) -> Option<Swing> {
         if clutch.slides_outside() {
-            return None;
+            let speeds = in_cage(clutch, curve, ahead_rad_s);
+            return swing_in_cage_with_friction(clutch, curve, alpha_max_rad, steady, speeds, &self.law);
         }
-        swing_with_friction(clutch, curve, alpha_max_rad, steady, sliding_rad_s, Some(&self.law))
+        swing_with_friction(clutch, curve, alpha_max_rad, steady, ahead_rad_s.abs(), Some(&self.law))
     }
+}
+
+/// A film that the force of an overrun squeezes out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SqueezedOut {
+    /// That force, of one sprag at A, N.
+    pub normal_n: f64,
+    /// Thickness of the film in the overrun, m.
+    pub thickness_m: f64,
+    /// Time down to the roughness, s; 0: it is thinner from the start.
+    pub time_s: f64,
+}
+
+/// The film of a scene that begins in overrun, `start`, once nothing slides any more; `None` without one.
+pub fn squeezed_out(scenario: &Scenario, start: &Overrun) -> Option<SqueezedOut> {
+    let clutch = &scenario.clutch;
+    let law = FilmFriction::of(clutch, clutch.lubrication.as_ref()?.temperature_c)?;
+    let [ahead, _] = Some(&scenario.kind).filter(|kind| !kind.is_overrun())?.overrun_rad_s()?;
+    let normal_n = Some(start.normal_inner_n).filter(|n| *n > 0.0)?;
+    let thickness_m = law.at(ahead.abs() * clutch.races.inner_radius_m, normal_n).film.thickness_m;
+    let time_s = squeeze_out_s(&law.contact, &law.fluid, thickness_m, law.roughness_m, normal_n);
+    Some(SqueezedOut { normal_n, thickness_m, time_s })
 }
 
 /// A lubricated overrun whose temperature is looked for.

@@ -1,6 +1,7 @@
 //! A cage that the inner race drives: forces in overrun against an independent solution, lift-off, balances, limits, refusals.
 
 use crate::program::*;
+use nalgebra::{Matrix2, Matrix3, Matrix4, Vector2, Vector3};
 use sprag_design::Design;
 use sprag_design::answer::overrun::{OverrunQuestion, RunningRace};
 use sprag_design::dynamics::CageFacts;
@@ -38,6 +39,9 @@ const DRY: [(&str, &str); 2] = [
         "",
     ),
 ];
+
+/// The friction of the file, which falls with speed, without its oil.
+const DRY_FALLING: [(&str, &str); 1] = [DRY[1]];
 
 /// What a command says.
 fn text_of(output: &std::process::Output) -> String {
@@ -326,7 +330,7 @@ fn the_commands_say_which_race_is_meant() {
     let answer = design.overrun(&question).unwrap();
     assert_eq!(answer.question.race, RunningRace::Inner);
     let [on, off] = [0, 1].map(|i| answer.lines[i]);
-    assert!(on.wear.is_some() && on.point.swing.is_none() && on.dry.state.sliding_n > 0.0);
+    assert!(on.wear.is_some() && !on.point.swing.unwrap().grows() && on.dry.state.sliding_n > 0.0);
     // Off without oil, on a film that hardly wears.
     assert!(off.dry.state.sliding_n == 0.0 && off.point.lubricated.unwrap().film.lambda > 10.0);
     assert!((answer.lift_off_rad_s.unwrap() / rad_s(LIFT_OFF_RPM) - 1.0).abs() < 1e-6);
@@ -361,4 +365,124 @@ fn clearance_outside_the_pivot_puts_lift_off_up() {
         let by_hand = ((squared(tilt) / squared(0.0)).sqrt() - 1.0) / (out(tilt) - out(0.0));
         assert!((facts.lift_off_higher_per_m / by_hand - 1.0).abs() < 2e-4, "{facts:?} {by_hand}");
     }
+}
+
+/// A small motion of the sprag by Newton's and Euler's equations of its body in the frame that turns with the cage, forces as vectors at
+/// Cartesian points, P held along the track and, where it is on its stop, out.
+#[test]
+fn a_swing_grows_as_newton_and_euler_have_it() {
+    let mut ways = [0; 3];
+    let mut signs = [0; 2];
+    for (changes, rpms) in [
+        (&DRY_FALLING[..], &[60.0, 300.0, 640.0, 655.0, 800.0][..]),
+        (&[], &[60.0, 300.0, 830.0, 860.0, 890.0, 1100.0]),
+    ] {
+        let (from, to) = loose("2");
+        let (design, state) = changed(&[changes, &[(from, &to)]].concat());
+        let touch = state.curve.touch();
+        let (oc_e, beta) = (touch.lengths.oc_e.v, touch.beta.v);
+        for &rpm in rpms {
+            let point = overrun_at(&design, &state, 0.0, rad_s(rpm)).unwrap();
+            let (s, law) = (point.state, point.lubricated.map(|l| l.law));
+            let (omega, speed) = (rad_s(rpm), rad_s(rpm) * 0.05);
+            let gap = point.lubricated.map_or(0.0, |l| l.film.film.least_m());
+            let tilt = touch.alpha.v - s.alpha_rad;
+            let yields = |n: f64| state.curve.closure_at_normal(n).unwrap().1.deformations;
+            let of_dry = yields(s.normal_outer_n);
+            let [k, by_speed, c] = law
+                .map_or([1.0 / (of_dry.contact_outer.d + of_dry.race_outer.d), 0.0, 0.0], |law| {
+                    law.compliance(speed, s.normal_outer_n)
+                });
+            let of_inner = yields(if s.normal_inner_n > 0.0 { s.normal_inner_n } else { 1.0 });
+            let k_a = 1.0 / (of_inner.contact_inner.d + of_inner.race_inner.d);
+            let (inside, on_stop) = (s.normal_inner_n > 0.0, s.cage_n[0] > 0.0);
+            ways[if inside {
+                0
+            } else if on_stop {
+                2
+            } else {
+                1
+            }] += 1;
+            type V = Vector2<f64>;
+            let turn =
+                |v: V, by: f64| V::new(v.x * by.cos() - v.y * by.sin(), v.x * by.sin() + v.y * by.cos());
+            let across = |v: V| V::new(-v.y, v.x);
+            let cross = |a: V, b: V| a.x * b.y - a.y * b.x;
+            let base = V::new(0.0, oc_e - gap);
+            let body =
+                [[0.15e-3, -0.5e-3], [1.55e-3, 0.7e-3], [42.6e-3 * beta.sin(), 42.6e-3 * beta.cos() - oc_e]];
+            let [p0, g0, c_10] = body.map(|[x, y]| base + turn(V::new(x, y), tilt));
+            let out_p = p0.normalize();
+            let accelerations = |[r, theta, r_rate, theta_rate]: [f64; 4]| {
+                let p = p0 + r * out_p;
+                let place = |point: V| p + turn(point - p0, theta);
+                let velocity = |point: V| r_rate * out_p + theta_rate * across(point - p);
+                let (c_e, g, c_1) = (place(base), place(g0), place(c_10));
+                let (out_b, out_a) = (c_e.normalize(), c_1.normalize());
+                // Forward is clockwise.
+                let ahead_b = -across(out_b);
+                let b = 0.05 * out_b;
+                let slides = speed + velocity(b).dot(&ahead_b);
+                let thickens = -velocity(c_e).dot(&out_b);
+                let thicker = base.norm() - c_e.norm();
+                let n = s.normal_outer_n - k * (thicker - by_speed * (slides - speed)) - c * thickens;
+                let (mu, x) = match law {
+                    Some(law) => (law.coefficient(slides, n), law.ahead_m(slides, n)),
+                    None => (0.09 + 0.02 * (-5.0 * slides).exp(), 0.0),
+                };
+                let pressed = turn(out_b, -x / 0.05);
+                let n_a = if inside { s.normal_inner_n - k_a * (c_1.norm() - c_10.norm()) } else { 0.0 };
+                let forces =
+                    [(pressed * 0.05, -n * pressed), (b, -mu * n * ahead_b), (0.035 * out_a, n_a * out_a)];
+                let fictitious = 0.0195 * (omega * omega * g + 2.0 * omega * across(velocity(g)));
+                let force = forces.iter().map(|f| f.1).sum::<V>() + fictitious;
+                // Open is counterclockwise. The spring feels the turn against the line OC_e.
+                let opened = theta - (out_b.y.atan2(out_b.x) - 0.5 * PI);
+                let spring = 0.05 * (state.alpha_max_rad - s.alpha_rad + opened);
+                let moment = forces.iter().map(|f| cross(f.0 - g, f.1)).sum::<f64>() - spring;
+                // r'', or the stop's force; theta''; the cage's along the track.
+                let along_p = -across(out_p);
+                let radial = if on_stop { [-out_p, V::zeros()] } else { [V::zeros(), out_p] };
+                let column = |f: V, a: V| {
+                    let left = 0.0195 * a - f;
+                    [left.x, left.y, -cross(p - g, f)]
+                };
+                let tilts = 0.0195 * across(g - p);
+                let columns =
+                    [column(radial[0], radial[1]), [tilts.x, tilts.y, 4.4e-7], column(along_p, V::zeros())];
+                let matrix = Matrix3::from_fn(|i, j| columns[j][i]);
+                let found = matrix.lu().solve(&Vector3::new(force.x, force.y, moment)).unwrap();
+                [if on_stop { 0.0 } else { found[0] }, found[1]]
+            };
+            // At rest it is in balance, and on the stop the force is that of the answer.
+            let still = accelerations([0.0; 4]);
+            let step = 1e-4 * s.normal_outer_n / k;
+            let rate = 1e-4 * if c > 0.0 { speed.min(s.normal_outer_n / c) } else { speed };
+            let steps = [step, step / 9e-3, rate, rate / 9e-3];
+            let by = |i: usize, j: usize| {
+                let at = |d: f64| accelerations(std::array::from_fn(|m| if m == j { d } else { 0.0 }))[i];
+                (at(steps[j]) - at(-steps[j])) / (2.0 * steps[j])
+            };
+            let eigenvalues = if on_stop {
+                Matrix2::new(0.0, 1.0, by(1, 1), by(1, 3)).complex_eigenvalues().as_slice().to_vec()
+            } else {
+                let moves = |i: usize, j: usize| f64::from(u8::from(j == i + 2));
+                let matrix = Matrix4::from_fn(|i, j| if i < 2 { moves(i, j) } else { by(i - 2, j) });
+                matrix.complex_eigenvalues().as_slice().to_vec()
+            };
+            let want = eigenvalues.iter().max_by(|a, b| a.re.total_cmp(&b.re)).unwrap();
+            let found = point.swing.unwrap();
+            println!(
+                "{rpm} rpm, inside {inside}, stop {on_stop}: {found:?}, by hand {want}, at rest {still:?}"
+            );
+            let size = want.re.abs() + 1e-7 * want.im.abs();
+            assert!((found.growth_rate_per_s - want.re).abs() < 2e-3 * size, "{found:?} {want}");
+            assert!(
+                (found.frequency_hz * 2.0 * PI - want.im.abs()).abs() < 1e-4 * want.norm(),
+                "{found:?} {want}"
+            );
+            signs[usize::from(found.grows())] += 1;
+        }
+    }
+    assert!(ways.iter().all(|n| *n > 0) && signs.iter().all(|n| *n > 0), "{ways:?} {signs:?}");
 }

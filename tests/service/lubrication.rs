@@ -135,6 +135,14 @@ fn squeezing_is_reynolds_with_a_rate() {
     let want =
         12.0 * fluid.viscosity_pa_s * contact.length_m * (2.0 * contact.radius_m / least).powf(1.5) * j;
     near(squeeze_n_s_per_m(&contact, &fluid, least * 1.226_011_7), want, 1e-5);
+    // Under one load from 2 to 0.3 um, by small steps of the thickness.
+    let (from, to, load_n, steps) = (2e-6, 0.3e-6, 1.5, 100_000);
+    let dh = (from - to) / f64::from(steps);
+    let slowed = |i: i32| squeeze_n_s_per_m(&contact, &fluid, to + (f64::from(i) + 0.5) * dh);
+    // h_0 falls by dh/1.226 while the thickness falls by dh.
+    let by_hand: f64 = (0..steps).map(|i| slowed(i) * dh / 1.226_011_7 / load_n).sum();
+    near(squeeze_out_s(&contact, &fluid, from, to, load_n), by_hand, 1e-5);
+    assert_eq!(squeeze_out_s(&contact, &fluid, to, from, load_n), 0.0);
 }
 
 /// Shear stress of a film that heats itself, by Runge-Kutta and two bisections: T'' = -Na s^2 exp(T), u' = s exp(T), u(1) = 1.

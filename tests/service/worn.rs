@@ -4,7 +4,7 @@ use sprag_design::clutch::{PittingStrength, Service};
 use sprag_design::design::Design;
 use sprag_design::life::{Life, Wear, life, worn, worn_life, worn_state};
 use sprag_design::margin::{Capacities, LoadState, load_margins, load_state, lowest_capacity, overrun_at};
-use sprag_design::wedge::WedgeCurve;
+use sprag_design::wedge::{SpragDeviation, WedgeCurve};
 
 const OIL: &str = include_str!("../../designs/lubricated.toml");
 
@@ -175,7 +175,7 @@ fn the_flat_has_the_volume_worn() {
     }
 }
 
-/// Parallel wear is a smaller sprag: what [`WedgeCurve::of_size`] computes by another way; and to first order it is linear.
+/// Parallel wear is a smaller sprag: what [`WedgeCurve::of_sprag`] computes by another way; and to first order it is linear.
 #[test]
 fn parallel_wear_is_a_smaller_sprag() {
     let design = design(false, 100.0, 1.0);
@@ -187,9 +187,10 @@ fn parallel_wear_is_a_smaller_sprag() {
     };
     let drawn = state.curve.touch().t_ratio;
     let off_m = 2e-6;
-    let smaller = state.curve.of_size(-off_m).unwrap();
+    let smaller =
+        state.curve.of_sprag(SpragDeviation { size_m: -off_m, ..SpragDeviation::default() }).unwrap();
     let (a, b) = (at(off_m).touch().t_ratio, smaller.touch().t_ratio);
-    println!("tan omega at first contact: {drawn}, {a}, of_size {b}");
+    println!("tan omega at first contact: {drawn}, {a}, of_sprag {b}");
     assert!((a / b - 1.0).abs() < 1e-9, "{a} against {b}");
     let torque = at(off_m).at_torque(50.0).unwrap();
     let same = smaller.at_torque(50.0).unwrap();

@@ -393,8 +393,7 @@ impl OverrunSection {
         if let Some(cage) = &self.cage {
             return format!(
                 "Overrun{film}: drag {slow} when slow{}; the cage carries the sprags with the inner race, they slide on the outer one, and \
-                 the centrifugal force is {} (the pivot lies {:.3} deg {} the centroid); whether a swing of the sprags grows is not \
-                 looked at",
+                 the centrifugal force is {} (the pivot lies {:.3} deg {} the centroid)",
                 named.concat(),
                 self.centrifugal,
                 cage.pivot_ahead_of_centroid_deg.abs(),

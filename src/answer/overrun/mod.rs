@@ -19,7 +19,7 @@ use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, NoMargins, OverrunPoint, lift_off_rad_s, load_state, overrun_at,
 };
 use crate::numeric::setting::{BadSetting, all_in_range};
-use crate::report::{Page, Screen, Table, Tone};
+use crate::report::{Page, Screen, Table, Tone, Unit};
 use serde_json::{Value, json};
 
 /// Which race runs; the other stands.
@@ -106,6 +106,16 @@ pub enum NoOverrun {
     /// There is no clutch to speak of.
     #[error("{0}")]
     NoClutch(NoMargins),
+    /// There is none at that speed.
+    #[error("at {} of the {} race: {why}", Unit::Rpm.show(*speed_rad_s, 4), race.name())]
+    AtSpeed {
+        /// The race that runs.
+        race: RunningRace,
+        /// Its speed, rad/s.
+        speed_rad_s: f64,
+        /// Why there is none.
+        why: NoMargins,
+    },
     /// A speed or a temperature out of its range.
     #[error("{0}")]
     Setting(BadSetting),
@@ -195,7 +205,9 @@ impl Design {
         for &oil_c in &question.temperatures_c {
             let there = OilAt::new(self, oil_c);
             for &speed in &question.speeds_rad_s {
-                let mut line = there.line(&state, question.race, speed).map_err(NoOverrun::NoClutch)?;
+                let race = question.race;
+                let found = there.line(&state, race, speed);
+                let mut line = found.map_err(|why| NoOverrun::AtSpeed { race, speed_rad_s: speed, why })?;
                 let heat = line.point.lubricated.map(|film| film.heat);
                 line.warm = heat.and_then(|heat| WarmClutch::at(self, &heat.temperatures));
                 lines.push(line);

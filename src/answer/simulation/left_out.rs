@@ -5,7 +5,7 @@ use crate::answer::left_out::{LeftOut, left_out_of};
 use crate::clutch::{ContactLaw, ScenarioKind};
 use crate::dynamics::Neglected;
 use crate::report::Unit;
-use crate::scenario::overrun_swing;
+use crate::scenario::{overrun_swing, squeezed_out};
 use crate::wedge::WedgeCurve;
 
 /// The list for `scene`; `damping`: what contact damping would change.
@@ -17,7 +17,7 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
     let kind = &scene.scenario.kind;
     if !kind.is_at_rest() {
         let (term, why) = film(scene);
-        add(term, why, "not estimated");
+        add(term, why, &film_squeezed(scene).unwrap_or_else(|| "not estimated".to_owned()));
         if scene.design.clutch.cage.is_none() {
             add(
                 "mass and friction of the cage",
@@ -101,6 +101,21 @@ fn film(scene: &Ran) -> (&'static str, &'static str) {
             ("lubricant film and temperature", "friction is the law (12) of the sliding speed alone")
         }
     }
+}
+
+/// How long a film that is there when a scene begins in overrun keeps the contact from gripping; `None` without either.
+fn film_squeezed(scene: &Ran) -> Option<String> {
+    let found = squeezed_out(&scene.scenario, &scene.simulation()?.overrun?)?;
+    if found.time_s == 0.0 {
+        return Some("little: the film of the overrun is thinner than the surfaces are rough".to_owned());
+    }
+    Some(format!(
+        "the force of the overrun, {}, squeezes its film of {} down to the roughness in {}; so much later the clutch grips at most, since the \
+         force grows meanwhile",
+        Unit::Newton.show(found.normal_n, 3),
+        Unit::Micrometre.show(found.thickness_m, 3),
+        Unit::Millisecond.show(found.time_s, 2)
+    ))
 }
 
 /// What an impact at touch does in the model; `damping`: of Hunt and Crossley, s/m, whose rebound at small speed v is 1 - 2 c v / 3 of it.
