@@ -336,7 +336,7 @@ fn the_commands_say_which_race_is_meant() {
     assert!((answer.lift_off_rad_s.unwrap() / rad_s(LIFT_OFF_RPM) - 1.0).abs() < 1e-6);
     let check = text_of(&run(&["check", FILE]));
     for words in [
-        "Without oil sprags lift off, on oil they begin to float off, the outer race at 827 rpm of the inner race",
+        "lift off the outer race at 827 rpm of the inner race, on oil by and by from there on",
         "Nm at 900 rpm of the inner race",
     ] {
         assert!(check.contains(words), "{check}");

@@ -429,12 +429,9 @@ impl OverrunSection {
                 return "No spring closes the sprags: nothing presses them on the outer race".to_owned();
             }
             return format!(
-                "{} the outer race at {rpm:.0} rpm of the inner race: keep above it in long overrun{}; {} later for each µm of clearance \
-                 outside the pivot {}{}",
-                match self.on_film {
-                    true => "Without oil sprags lift off, on oil they begin to float off,",
-                    false => "Sprags lift off",
-                },
+                "Sprags lift off the outer race at {rpm:.0} rpm of the inner race{}: keep above it in long overrun{}; {} later for each µm of \
+                 clearance outside the pivot {}{}",
+                if self.on_film { ", on oil by and by from there on" } else { "" },
                 match cage.comes_back_there {
                     true => "; they come back at the same speed",
                     false =>
