@@ -91,9 +91,7 @@ impl SimulationAnswer {
     pub fn text_with_all_figures(&self, screen: Screen) -> String {
         format!("{}\n\n{}{}", self.verdict_line(), facts::table(self).to_text(screen), self.slip_text())
     }
-}
 
-impl SimulationAnswer {
     /// What slip does to its surfaces; nothing where nothing slips.
     fn slip_text(&self) -> String {
         self.simulation().map_or(Vec::new(), slip::lines).iter().map(|line| format!("\n{line}\n")).collect()

@@ -26,7 +26,7 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
     let (first, all) = facts::first_and_all(facts::table(scene));
     page.narrow_table(&first);
     if let Ok((prepared, simulation)) = &scene.outcome {
-        page.list(&slip_words::lines(simulation));
+        page.list(slip_words::lines(simulation));
         if scene.method != "equilibrium" {
             histories(&mut page, scene, prepared, simulation);
         }

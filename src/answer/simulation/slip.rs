@@ -44,6 +44,6 @@ pub(super) fn left_out(s: &Simulation) -> Option<LeftOut> {
     Some(LeftOut::new(
         "what heat and wear of slip do to the motion",
         "both are computed from the slip found; friction and shape stay those of cold, new surfaces",
-        &format!("not estimated; the flash is {} at most", Unit::Kelvin.show(flash_k, 2)),
+        &format!("not estimated; the flash is {}", Unit::Kelvin.show(flash_k, 2)),
     ))
 }
