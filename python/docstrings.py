@@ -29,6 +29,8 @@ STRUCTS = {
     "Check": ["answer/check/body.rs CheckBody"],
     "Junction": ["answer/stiffness/junctions.rs Junction"],
     "Curve": ["answer/stiffness/body.rs CurvePoint", "answer/stiffness/body.rs CurveBody"],
+    "SlipHeat": ["answer/simulation/body.rs SlipHeat"],
+    "WorstSlip": ["answer/simulation/body.rs WorstSlip"],
     "Slip": ["answer/simulation/body.rs Slip"],
     "Slips": ["answer/simulation/body.rs Slips"],
     "Simulation": ["answer/simulation/body.rs SimulationBody"],

@@ -26,7 +26,7 @@ const MAY_USE: &[(&str, &str)] = &[
     ("contact", "material numeric"),
     ("friction", "numeric lubrication clutch"),
     ("wedge", "numeric material profile clutch kinematics contact race"),
-    ("dynamics", "follow numeric ode clutch kinematics friction wedge"),
+    ("dynamics", "follow numeric ode lubrication clutch kinematics friction wedge"),
     // Unlike sprags between the races of one clutch, on its curve.
     ("sharing", "numeric race clutch wedge"),
     // A scenario may be given another friction law; what slides on a film is at the temperature of its heat balance.

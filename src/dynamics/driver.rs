@@ -8,6 +8,7 @@ use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::probes::{NeverPositive, Observed, Probes, Trail};
 use super::repeat::Repeat;
 use super::run::{FastMotion, Run, RunSettings, Stop, tolerance_at};
+use super::slip_heat::SlipWatch;
 use super::turns::{Turns, turn};
 use super::watch::{Watch, highest, sample_extremes};
 use super::zeno::{Zeno, resolution_s};
@@ -42,6 +43,8 @@ where
     pub(super) watch: Watch<'a>,
     /// Works so far, where they are counted.
     pub(super) audit: Option<Audit>,
+    /// Slip so far, where its heat is counted.
+    pub(super) slip_watch: Option<SlipWatch>,
     pub(super) zeno: Zeno,
     /// Ends of periods, where whole ones may be jumped.
     pub(super) repeat: Option<Repeat<N>>,
@@ -95,6 +98,7 @@ where
             phase: None,
             watch: Watch::new(model, settings),
             audit: None,
+            slip_watch: settings.slip_heat.then(SlipWatch::new),
             zeno: Zeno::new(),
             repeat: settings.jump_period_s.map(Repeat::new),
             turns: Turns::NONE,
@@ -434,6 +438,9 @@ where
         if let Some(audit) = &mut self.audit {
             audit.step(self.model, &self.run.mode, step, rhs);
         }
+        if let Some(watch) = self.slip_watch.as_mut().filter(|_| self.run.engaged.is_some()) {
+            watch.step(self.model, &self.run.mode, step, rhs);
+        }
         Ok(())
     }
 
@@ -496,6 +503,7 @@ where
 
     pub(super) fn finish(mut self) -> Run<N> {
         self.run.energy = self.audit.map(|audit| audit.balance(self.model, &self.run));
+        self.run.slip_heat = self.slip_watch.map_or([None; 2], |watch| watch.heat());
         sample_extremes(&mut self.run);
         if matches!(self.run.stop, Stop::StepLimit | Stop::EventLimit) {
             let mut rhs = slope_in(self.model, self.run.mode);

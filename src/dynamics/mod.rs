@@ -1,6 +1,6 @@
 //! Equations of motion (11)-(15): the only room that knows stick from slip.
 //!
-//! In: wedge curve, inertias, friction, loads. Out: runs with located mode changes, their peaks and counters.
+//! In: wedge curve, inertias, friction, loads. Out: runs with located mode changes, their peaks and counters, work and heat of slip.
 //! Absent: limits and verdicts (margin), scenario names. Equations: (11), (13), (15), energy-consistent form.
 //!
 //! # Conventions
@@ -31,6 +31,7 @@ mod retrace;
 mod rolling;
 mod run;
 mod settled;
+mod slip_heat;
 mod start;
 mod stick;
 mod stick_table;
@@ -62,6 +63,7 @@ pub use run::{
     Engaged, FastMotion, History, Hold, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
     run_while_it_sticks,
 };
+pub use slip_heat::{Rubbed, SlipWork};
 pub use start::{
     Overrun, SlidingContact, alpha_max_rad, overrun, overrun_under, preloaded, settled,
     settled_end_torque_nm, settled_point,

@@ -63,6 +63,8 @@ pub struct Model {
     pub alpha_max_rad: f64,
     /// Normal force from which on a contact counts as loaded, N; 0: always.
     pub loaded_n: f64,
+    /// Wear of sprag and race per load and path, m^2/N (Archard); `None`: not known.
+    pub wear_m2_per_n: Option<[f64; 2]>,
     pub(super) count: f64,
     pub(super) mass_kg: f64,
     pub(super) inertia_kg_m2: f64,
@@ -159,6 +161,7 @@ impl Model {
             drive: Drive::default(),
             alpha_max_rad,
             loaded_n: 0.0,
+            wear_m2_per_n: clutch.lubrication.as_ref().map(|l| [l.sprag_wear_m2_per_n, l.race_wear_m2_per_n]),
             count: clutch.sprags.count as f64,
             mass_kg: clutch.sprags.mass_kg,
             inertia_kg_m2: clutch.sprags.inertia_kg_m2,

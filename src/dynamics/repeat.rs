@@ -293,6 +293,9 @@ where
         }
         let periods = periods as u64;
         self.template = Some((now, periods, error));
+        if let Some(watch) = &mut driver.slip_watch {
+            watch.mark();
+        }
         let from = self.end_s();
         let start_s = driver.run.t_s;
         // A sample at the very end is one of them, whatever rounding says.
@@ -371,6 +374,9 @@ where
         driver.passed_events += periods * events;
         if let Some(audit) = &mut driver.audit {
             audit.add(n, &added[7..]);
+        }
+        if let Some(watch) = &mut driver.slip_watch {
+            watch.repeat(n, span_s);
         }
         driver.phase =
             driver.phase.map(|phase| phase + n * (drift[2] - if runs_on(model, 3) { drift[3] } else { 0.0 }));

@@ -4,6 +4,7 @@ use super::energy::EnergyBalance;
 use super::events::{FIGURES, N_BI};
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use super::repeat::Jump;
+use super::slip_heat::Rubbed;
 use super::train::{self, TrainRun};
 use crate::follow::Follow;
 use crate::ode::step::{Counters, Tolerance};
@@ -34,6 +35,8 @@ pub struct RunSettings {
     pub rolling: bool,
     /// Whether works are counted for the energy balance; costs some fifteen evaluations a step.
     pub energy: bool,
+    /// Whether work, heat and wear of slip are counted; costs some fifteen evaluations a step that slips.
+    pub slip_heat: bool,
     /// What the samples are of.
     pub history: History,
     /// Ends the run at the next step, and is told how far it is.
@@ -55,6 +58,7 @@ impl Default for RunSettings {
             jump_error: 0.0,
             rolling: false,
             energy: false,
+            slip_heat: false,
             history: History::default(),
             follow: Follow::nobody(),
         }
@@ -286,6 +290,8 @@ pub struct Run<const N: usize = N_STATE> {
     pub fast_motion: Option<FastMotion>,
     /// Where the energy went, where that was asked.
     pub energy: Option<EnergyBalance>,
+    /// What slip at A and B since the clutch engaged has come to, where that was asked and it has slipped.
+    pub slip_heat: [Option<Rubbed>; 2],
     /// Samples in the order of time: equidistant ones, and those that [`History::marks`] adds.
     pub samples: Vec<Sample<N>>,
     /// How many of these are changes of mode.
@@ -364,6 +370,7 @@ impl<const N: usize> Run<N> {
             inconsistent_choices: 0,
             fast_motion: None,
             energy: None,
+            slip_heat: [None; 2],
             samples: Vec::with_capacity(samples),
             marked: 0,
             extremes: [None; FIGURES],

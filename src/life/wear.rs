@@ -3,7 +3,7 @@
 use crate::clutch::{Lubrication, SlipCase};
 use crate::design::Design;
 use crate::friction::FilmFriction;
-use crate::lubrication::{STEEL_DIFFUSIVITY_M2_S, flash_k, flat_depth_m, track_depth_m};
+use crate::lubrication::{flash_k, flat_depth_m, peclet, track_depth_m};
 use crate::margin::{LoadState, OverrunPoint};
 
 /// Depths that an hour of overrun takes, from the load that asperities carry (Archard).
@@ -75,7 +75,7 @@ pub fn slip_effect(design: &Design, state: &LoadState) -> Option<SlipEffect> {
         friction,
         flux_w_m2,
         flash_k: flash_k(flux_w_m2, half, case.speed_m_s, case.path_m),
-        peclet: 0.5 * case.speed_m_s * half / STEEL_DIFFUSIVITY_M2_S,
+        peclet: peclet(half, case.speed_m_s, case.path_m / case.speed_m_s),
         sprag_m: sprag_wear_m2_per_n * film.asperities * pressure * case.path_m,
         race_m: race_wear_m2_per_n * film.asperities * pressure * case.path_m.min(2.0 * half),
     })

@@ -1,4 +1,4 @@
-//! Temperatures: a lumped network of the bodies, and the flash of a slip.
+//! Mean temperatures: a lumped network of the bodies.
 
 use nalgebra::{Matrix4, Vector4};
 use std::f64::consts::PI;
@@ -96,20 +96,4 @@ pub fn standing_strip(length_m: f64, half_m: f64, far_m: f64) -> f64 {
 /// q'' = (3 sqrt(pi)/4) e dT/sqrt(t), t = 2 b/v.
 pub fn moving_strip(length_m: f64, half_m: f64, speed_m_s: f64) -> f64 {
     0.75 * PI.sqrt() * STEEL_EFFUSIVITY * length_m * (2.0 * half_m * speed_m_s).sqrt()
-}
-
-/// Rise of the hottest place in a slip, K: a semi-elliptic source of mean `flux_w_m2` and half width `half_m` stands on the sprag and
-/// passes over the race at `speed_m_s`, for `path_m`.
-///
-/// Heat goes straight in (no sideways flow, so too hot below Peclet numbers of some 5). The race sees each source for
-/// t_r = min(2 a, path)/v, the hottest place 1.11 q_r sqrt(t_r)/e (Blok, Jaeger); the sprag sees its middle, 4/pi of
-/// the mean, for t_s = path/v:
-/// (4/pi)(2/sqrt(pi)) q_s sqrt(t_s)/e. Heat is shared so that both are equally hot (Blok's postulate).
-pub fn flash_k(flux_w_m2: f64, half_m: f64, speed_m_s: f64, path_m: f64) -> f64 {
-    if speed_m_s <= 0.0 || path_m <= 0.0 {
-        return 0.0;
-    }
-    let race = 1.11 * (path_m.min(2.0 * half_m) / speed_m_s).sqrt();
-    let sprag = 4.0 / PI * 2.0 / PI.sqrt() * (path_m / speed_m_s).sqrt();
-    flux_w_m2 / STEEL_EFFUSIVITY * race * sprag / (race + sprag)
 }

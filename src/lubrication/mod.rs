@@ -7,6 +7,7 @@
 //! Spikes' share, Blok's flash, Archard's wear.
 
 mod film;
+mod flash;
 mod heat;
 mod oil;
 mod shear;
@@ -14,9 +15,10 @@ mod viscosity;
 mod wear;
 
 pub use film::{Film, FilmContact, Fluid, Regime, film, squeeze_n_s_per_m, squeeze_out_s};
+pub use flash::{Flash, flash_k, peclet, stays_s};
 pub use heat::{
-    Heat, Network, STEEL_CONDUCTIVITY, STEEL_DIFFUSIVITY_M2_S, STEEL_EFFUSIVITY, Temperatures, flash_k,
-    moving_strip, standing_strip,
+    Heat, Network, STEEL_CONDUCTIVITY, STEEL_DIFFUSIVITY_M2_S, STEEL_EFFUSIVITY, Temperatures, moving_strip,
+    standing_strip,
 };
 pub use oil::{BaseOil, OILS, Oil, oil};
 pub use shear::{Shear, asperity_share, nahme_factor, roelands, shear};

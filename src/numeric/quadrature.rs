@@ -29,9 +29,29 @@ pub fn integrals<const M: usize>(a: f64, b: f64, mut f: impl FnMut(f64) -> [f64;
     sum
 }
 
+/// Nodes and weights of the rule on [a, b], from a to b. Parts as long as the weights, one after the other, hold a node each
+/// (Chebyshev, Markov, Stieltjes).
+pub fn nodes(a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> {
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    let before = HALF.into_iter().rev().map(move |(x, w)| (middle - half * x, half * w));
+    before.chain(HALF.into_iter().map(move |(x, w)| (middle + half * x, half * w)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nodes_come_in_order_each_in_its_own_part() {
+        let mut from = 1.0;
+        for (x, w) in nodes(1.0, 3.0) {
+            assert!(from < x && x < from + w, "{x}");
+            from += w;
+        }
+        assert!((from - 3.0).abs() < 1e-14);
+        let s: f64 = nodes(0.0, 2.0).map(|(x, w)| w * x.powi(23)).sum();
+        assert!((s / (2f64.powi(24) / 24.0) - 1.0).abs() < 1e-14);
+    }
 
     #[test]
     fn exact_to_degree_23() {

@@ -58,6 +58,7 @@ impl Fidelity {
             follow: _,
             // No search sets it.
             every_period: _,
+            slip_heat: _,
         } = settings;
         format!(
             "Fidelity {{ settings: Settings {{ tolerance: {tolerance:?}, longest_step_s: {longest_step_s:?}, \

@@ -55,6 +55,10 @@ named! {
         Watt = "W",
         /// Joule.
         Joule = "J",
+        /// Watt per square millimetre, from W/m^2.
+        WattPerSquareMillimetre = "W/mm²",
+        /// Kelvin, of a rise.
+        Kelvin = "K",
     }
     /// Symbol as printed in a heading; empty for a pure number.
     pub fn symbol;
@@ -68,7 +72,7 @@ impl Unit {
             Self::Millimetre | Self::Milliradian | Self::Millisecond | Self::Gram => si * 1e3,
             Self::Micrometre => si * 1e6,
             // Divided, not multiplied by 1e-6: 4.2e9 Pa must come out as 4200, not 4199.999….
-            Self::Megapascal => si / 1e6,
+            Self::Megapascal | Self::WattPerSquareMillimetre => si / 1e6,
             Self::Gigapascal => si / 1e9,
             Self::Degree => si * 180.0 / PI,
             Self::Rpm => si * 30.0 / PI,
@@ -84,7 +88,8 @@ impl Unit {
             | Self::MetrePerSecond
             | Self::KilogramSquareMetre
             | Self::Watt
-            | Self::Joule => si,
+            | Self::Joule
+            | Self::Kelvin => si,
         }
     }
 

@@ -4,8 +4,8 @@ use super::demand::RollingDemand;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
 use crate::dynamics::{
-    EnergyBalance, Engaged, FastMotion, Hold, Jump, Mode, Neglected, Overrun, Peaks, Sample, SlipRecord,
-    Stop, TrainRun,
+    EnergyBalance, Engaged, FastMotion, Hold, Jump, Mode, Neglected, Overrun, Peaks, Rubbed, Sample,
+    SlipRecord, SlipWork, Stop, TrainRun,
 };
 
 named! {
@@ -107,6 +107,10 @@ pub struct Simulation {
     pub fast_motion: Option<FastMotion>,
     /// Where the energy went, where that was asked.
     pub energy: Option<EnergyBalance>,
+    /// What slip at A and B has come to, where that was asked and it has slipped; the motion feels nothing of it.
+    pub slip_heat: [Option<Rubbed>; 2],
+    /// Wear of sprag and race per load and path, m^2/N; `None`: not known.
+    pub wear_m2_per_n: Option<[f64; 2]>,
     /// History.
     pub samples: Vec<Sample>,
     /// What the equations leave out, at its largest over the run; 0 without samples.
@@ -126,6 +130,16 @@ pub struct Simulation {
 }
 
 impl Simulation {
+    /// All slip at contact 0 (A) or 1 (B); `None` where it has not slipped.
+    pub fn slipped(&self, contact: usize) -> Option<SlipWork> {
+        self.slip_heat[contact].map(|heat| heat.whole)
+    }
+
+    /// Depths that it wears off a sprag and the race, m; `None` also where the wear of these surfaces is not known.
+    pub fn wear_m(&self, contact: usize) -> Option<[f64; 2]> {
+        Some(self.slipped(contact)?.wear_m(self.wear_m2_per_n?))
+    }
+
     /// Initial slip: how long A slips under load after an overrun has been reversed, s. From the instant at which v_A has
     /// fallen to 0 under load to the first stick under which the load comes to a peak ([`Hold`]); time without contact in
     /// between is not counted, so it is a part of the time of slip of [`Self::inner`]. The paper: about 0.5 ms. `None` without an

@@ -89,6 +89,7 @@ pub(super) fn run_settings(
         jump_error: JUMPED * settings.tolerance,
         rolling: false,
         energy: settings.energy,
+        slip_heat: settings.slip_heat,
         history: settings.history,
         follow: settings.follow.clone(),
     }
@@ -210,9 +211,9 @@ fn of_peaks(prepared: &Prepared, r: &Rolling) -> RollingDemand {
     }
 }
 
-/// Without an energy balance, which costs some fifteen evaluations a step and of these runs is not asked for.
+/// Without an energy balance and the heat of slip, which cost some fifteen evaluations a step each and of these runs are not asked for.
 fn unaudited(settings: &Settings) -> Settings {
-    Settings { energy: false, ..settings.clone() }
+    Settings { energy: false, slip_heat: false, ..settings.clone() }
 }
 
 /// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.

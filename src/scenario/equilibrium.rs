@@ -59,6 +59,8 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         inconsistent_choices: 0,
         fast_motion: None,
         energy: None,
+        slip_heat: [None; 2],
+        wear_m2_per_n: None,
         samples: Vec::new(),
         neglected: Neglected::default(),
         engaged: None,

@@ -38,6 +38,9 @@ impl Scales {
             Quantity::Force => self.force_n,
             Quantity::Pressure => self.pressure_pa,
             Quantity::ContactMargin => self.contact,
+            Quantity::Work | Quantity::Power | Quantity::Flux | Quantity::Rise | Quantity::Depth => {
+                f64::INFINITY
+            }
         }
     }
 

@@ -23,6 +23,16 @@ pub enum Quantity {
     Margin,
     /// Margin of a force over the static one: by the largest force over the static one.
     ContactMargin,
+    /// Work of slip, J: by nothing, as what follows. They are seen beside the motion and have no say in how finely that is run.
+    Work,
+    /// Power of slip, W.
+    Power,
+    /// Heat over an area, W/m^2.
+    Flux,
+    /// Rise of a temperature, K.
+    Rise,
+    /// Depth of wear, m.
+    Depth,
 }
 
 /// Where a figure stands among the lines for people.
@@ -43,6 +53,8 @@ pub enum Group {
     Motion,
     /// Slip after a reversal.
     Reversal,
+    /// Work, heat and wear of slip.
+    Slip,
     /// Time without contact.
     Lost,
     /// Extremes, with their times.
@@ -136,6 +148,48 @@ figures! {
     /// Time of slip at B, s.
     slip_time_outer_s, "slip_time_s", Time, "slip time at the outer contact",
         line(Group::Motion, 7, "slip time, outer contact"), |s| Some(s.outer.time_s);
+    /// Friction work of a sprag at A, J.
+    slip_work_inner_j, "slip_work_j", Work, "friction work of a sprag at the inner contact",
+        line(Group::Slip, 0, "friction work of a sprag, inner contact"), |s| Some(s.slipped(0)?.work_j);
+    /// Friction work of a sprag at B, J.
+    slip_work_outer_j, "slip_work_j", Work, "friction work of a sprag at the outer contact",
+        line(Group::Slip, 20, "friction work of a sprag, outer contact"), |s| Some(s.slipped(1)?.work_j);
+    /// The same in the slip with the most at A, J.
+    worst_slip_work_inner_j, "worst_slip_work_j", Work, "friction work of a sprag in the worst slip at the inner contact",
+        line(Group::Slip, 1, "the same in the worst slip, inner contact"), |s| Some(s.slip_heat[0]?.worst.work_j);
+    /// The same in the slip with the most at B, J.
+    worst_slip_work_outer_j, "worst_slip_work_j", Work, "friction work of a sprag in the worst slip at the outer contact",
+        line(Group::Slip, 21, "the same in the worst slip, outer contact"), |s| Some(s.slip_heat[1]?.worst.work_j);
+    /// Largest friction power of a sprag at A, W.
+    slip_power_inner_w, "slip_power_w", Power, "largest friction power of a sprag at the inner contact",
+        line(Group::Slip, 2, "largest friction power of a sprag, inner contact"), |s| Some(s.slipped(0)?.power_w);
+    /// Largest friction power of a sprag at B, W.
+    slip_power_outer_w, "slip_power_w", Power, "largest friction power of a sprag at the outer contact",
+        line(Group::Slip, 22, "largest friction power of a sprag, outer contact"), |s| Some(s.slipped(1)?.power_w);
+    /// Largest heat over the flat at A, W/m^2.
+    slip_flux_inner_w_m2, "slip_flux_w_per_mm2", Flux, "largest heat over the flat at the inner contact",
+        line(Group::Slip, 3, "largest heat over the flat, inner contact"), |s| Some(s.slipped(0)?.flux_w_m2);
+    /// Largest heat over the flat at B, W/m^2.
+    slip_flux_outer_w_m2, "slip_flux_w_per_mm2", Flux, "largest heat over the flat at the outer contact",
+        line(Group::Slip, 23, "largest heat over the flat, outer contact"), |s| Some(s.slipped(1)?.flux_w_m2);
+    /// Flash of slip at A, K.
+    flash_inner_k, "flash_k", Rise, "flash of slip at the inner contact",
+        line(Group::Slip, 4, "flash of slip above the bodies, inner contact"), |s| Some(s.slipped(0)?.flash_k);
+    /// Flash of slip at B, K.
+    flash_outer_k, "flash_k", Rise, "flash of slip at the outer contact",
+        line(Group::Slip, 24, "flash of slip above the bodies, outer contact"), |s| Some(s.slipped(1)?.flash_k);
+    /// Depth that slip wears off a sprag at A, m.
+    sprag_wear_inner_m, "sprag_wear_um", Depth, "wear of a sprag at the inner contact",
+        line(Group::Slip, 5, "wear of a sprag, inner contact"), |s| Some(s.wear_m(0)?[0]);
+    /// Depth that slip wears off a sprag at B, m.
+    sprag_wear_outer_m, "sprag_wear_um", Depth, "wear of a sprag at the outer contact",
+        line(Group::Slip, 25, "wear of a sprag, outer contact"), |s| Some(s.wear_m(1)?[0]);
+    /// Depth that slip wears off the race at A, m.
+    race_wear_inner_m, "race_wear_um", Depth, "wear of the race at the inner contact",
+        line(Group::Slip, 6, "wear of the race, inner contact"), |s| Some(s.wear_m(0)?[1]);
+    /// Depth that slip wears off the race at B, m.
+    race_wear_outer_m, "race_wear_um", Depth, "wear of the race at the outer contact",
+        line(Group::Slip, 26, "wear of the race, outer contact"), |s| Some(s.wear_m(1)?[1]);
     /// Time without contact, s.
     contact_lost_s, "contact_lost_s", Time, "time without contact",
         line(Group::Lost, 0, "time without contact"), |s| Some(s.contact_lost_s);
@@ -241,6 +295,11 @@ mod tests {
                 Quantity::Force => "_n",
                 Quantity::Pressure => "_mpa",
                 Quantity::Friction | Quantity::Margin | Quantity::ContactMargin => "",
+                Quantity::Work => "_j",
+                Quantity::Power => "_w",
+                Quantity::Flux => "_w_per_mm2",
+                Quantity::Rise => "_k",
+                Quantity::Depth => "_um",
             };
             assert!(figure.key.ends_with(suffix), "{}", figure.key);
             assert_eq!(figure.normal_n.is_some(), figure.quantity == Quantity::Pressure, "{}", figure.key);

@@ -57,7 +57,7 @@ pub fn beyond(clutch: &Clutch, prepared: &Prepared, settings: &Settings) -> Opti
     let way = prepared.model.curve.beyond(clutch.brink(&profile).as_ref())?;
     let mut model = prepared.model.clone();
     model.curve = way.curve.clone();
-    let settings = Settings { energy: true, ..settings.clone() };
+    let settings = Settings { energy: true, slip_heat: false, ..settings.clone() };
     let once = |tolerance: f64| {
         let fineness = Fineness::single(tolerance);
         let of_run = run_settings(prepared, &settings, fineness, 0, STEPS_PER_PERIOD);

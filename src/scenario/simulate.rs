@@ -37,6 +37,8 @@ pub struct Settings {
     pub every_period: bool,
     /// Whether the energy balance of the run is made up. Default no.
     pub energy: bool,
+    /// Whether work, heat and wear of slip are made up. Default no.
+    pub slip_heat: bool,
     /// What the samples are of. Default: equidistant ones from start to end.
     pub history: History,
     /// Ends the runs at their next step, and is told how far they are. Of no weight for the answer of a run that comes to its
@@ -65,6 +67,7 @@ impl Default for Settings {
             most_steps: None,
             every_period: false,
             energy: false,
+            slip_heat: false,
             history: History::default(),
             follow: Follow::nobody(),
         }
@@ -367,6 +370,8 @@ fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
         inconsistent_choices: run.inconsistent_choices,
         fast_motion: run.fast_motion,
         energy: run.energy,
+        slip_heat: run.slip_heat,
+        wear_m2_per_n: prepared.model.wear_m2_per_n,
         samples: run.samples.clone(),
         neglected: run.neglected,
         engaged: run.engaged,

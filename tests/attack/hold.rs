@@ -35,6 +35,7 @@ const MAY_BE_NULL: &[&str] = &[
     "free_centroid",
     "growth_rate_per_s",
     "half_width_95",
+    "heat",
     "hertz_least_mpa",
     "hertz_peak_mpa",
     "hertz_rated_mpa",
@@ -55,6 +56,7 @@ const MAY_BE_NULL: &[&str] = &[
     "offset_rad",
     "peak_tan_demand",
     "peak_torque_capacity",
+    "race_wear_um",
     "realised",
     "reason",
     "rejections",
@@ -71,6 +73,7 @@ const MAY_BE_NULL: &[&str] = &[
     "sensitivities",
     "sigma",
     "slip_margin",
+    "sprag_wear_um",
     "steps",
     "swing_frequency_hz",
     "t_end_s",
@@ -88,6 +91,7 @@ const MAY_BE_NULL: &[&str] = &[
     "windup_deg",
     "windup_local_only",
     "windup_rad",
+    "worst",
     "written",
     "written_to",
     "zeno_closures",
@@ -245,6 +249,12 @@ fn simulate(value: &Value, ran: &Ran, faults: &mut Vec<String>) {
     for key in ["t_end_s", "contact_lost_s", "normal_min_n", "normal_max_n", "offset_rad"] {
         if value[key].is_null() && value["kind"] != "static" {
             faults.push(format!("verdict {scene}, yet null for {key}"));
+        }
+    }
+    for slip in ["inner", "outer"].map(|contact| &value["slip"][contact]) {
+        let slips = slip["time_s"].as_f64().is_some_and(|t| t > 0.0);
+        if value["method"] == "event" && slips == slip["heat"].is_null() {
+            faults.push(format!("slip and its heat differ: {slip}"));
         }
     }
 }

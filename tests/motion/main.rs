@@ -22,6 +22,7 @@ mod periodic;
 mod quick;
 mod ramp;
 mod scenes;
+mod slip_heat;
 mod stability;
 mod stand_by;
 mod start;

@@ -48,12 +48,14 @@ from ._answers import (
     SharingSprag,
     Simulation,
     Slip,
+    SlipHeat,
     SlipWear,
     Slips,
     SpringFeed,
     Stiffness,
     SweepMap,
     Variable,
+    WorstSlip,
 )
 from ._design import Design, Problem, map_tables
 from ._errors import DesignError, DesignProblem, NoClutch
@@ -98,12 +100,14 @@ __all__ = [
     "SharingSprag",
     "Simulation",
     "Slip",
+    "SlipHeat",
     "SlipWear",
     "Slips",
     "SpringFeed",
     "Stiffness",
     "SweepMap",
     "Variable",
+    "WorstSlip",
     "contact_laws",
     "map_tables",
 ]

@@ -478,6 +478,40 @@ def stiffness_of(found: tuple[str, str]) -> Stiffness:
 
 
 @dataclass(frozen=True)
+class SlipHeat:
+    """Work, heat and wear of slip at one contact of one sprag."""
+
+    work_j: float
+    """Work of friction, J."""
+    power_w: float
+    """Largest power of friction, W."""
+    flux_w_per_mm2: float
+    """Largest heat of both bodies over the Hertz flat, W/mm2."""
+    flash_k: float
+    """Largest rise of the hottest place above the bodies, K."""
+    peclet: float
+    """Peclet number then; below some 5 heat goes sideways too, and the rise is less."""
+    sprag_wear_um: float | None
+    """Depth worn off the sprag if asperities carry all, um; ``None`` without ``[lubrication]``."""
+    race_wear_um: float | None
+    """Depth worn off the place of the race that most slips over, um; at most, ``None`` as above."""
+
+
+@dataclass(frozen=True)
+class WorstSlip:
+    """The slip with the most work at one contact."""
+
+    from_s: float
+    """When it begins, s."""
+    time_s: float
+    """Its time in slip, s."""
+    path_mm: float
+    """Its path, mm."""
+    heat: SlipHeat
+    """Its work, heat and wear."""
+
+
+@dataclass(frozen=True)
 class Slip:
     """Slip at one contact."""
 
@@ -487,6 +521,10 @@ class Slip:
     """Path of slip, mm."""
     net_mm: float | None
     """Net slip, mm; positive towards overrunning."""
+    heat: SlipHeat | None
+    """Work, heat and wear of all of it; ``None`` where nothing slips, and by the published scheme."""
+    worst: WorstSlip | None
+    """The slip with the most work."""
 
 
 @dataclass(frozen=True)

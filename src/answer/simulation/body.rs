@@ -5,7 +5,8 @@ use super::{Ran, SimulationErrors};
 use crate::answer::left_out::LeftOut;
 use crate::answer::roll_over::BeyondBody;
 use crate::design::rpm;
-use crate::dynamics::{EnergyBalance, SlipRecord, Stop};
+use crate::dynamics::{EnergyBalance, SlipWork, Stop};
+use crate::report::Unit;
 use crate::scenario::{Prepared, Simulation, overrun_swing};
 use serde::Serialize;
 
@@ -18,6 +19,42 @@ pub struct Slip {
     pub distance_mm: Option<f64>,
     /// Net slip, mm; positive towards overrunning.
     pub net_mm: Option<f64>,
+    /// Work, heat and wear of all of it; null where nothing slips, and by the published scheme.
+    pub heat: Option<SlipHeat>,
+    /// The slip with the most work.
+    pub worst: Option<WorstSlip>,
+}
+
+/// Work, heat and wear of slip at one contact of one sprag.
+#[derive(Debug, Clone, Serialize)]
+pub struct SlipHeat {
+    /// Work of friction, J.
+    pub work_j: f64,
+    /// Largest power of friction, W.
+    pub power_w: f64,
+    /// Largest heat of both bodies over the Hertz flat, W/mm2.
+    pub flux_w_per_mm2: f64,
+    /// Largest rise of the hottest place above the bodies, K.
+    pub flash_k: f64,
+    /// Peclet number then; below some 5 heat goes sideways too, and the rise is less.
+    pub peclet: f64,
+    /// Depth worn off the sprag if asperities carry all, um; null without `[lubrication]`.
+    pub sprag_wear_um: Option<f64>,
+    /// Depth worn off the place of the race that most slips over, um; at most, null as above.
+    pub race_wear_um: Option<f64>,
+}
+
+/// The slip with the most work at one contact; a stick of less time than its heat takes to go sideways does not end it.
+#[derive(Debug, Clone, Serialize)]
+pub struct WorstSlip {
+    /// When it begins, s.
+    pub from_s: f64,
+    /// Its time in slip, s.
+    pub time_s: f64,
+    /// Its path, mm.
+    pub path_mm: f64,
+    /// Its work, heat and wear.
+    pub heat: SlipHeat,
 }
 
 /// Slip at both contacts.
@@ -245,11 +282,35 @@ pub struct SimulationBody {
 }
 
 impl Slip {
-    fn of(record: &SlipRecord) -> Self {
+    fn of(s: &Simulation, contact: usize) -> Self {
+        let record = [&s.inner, &s.outer][contact];
+        let heat = |work: &SlipWork| SlipHeat::of(work, s.wear_m2_per_n);
         Self {
             time_s: Some(record.time_s),
             distance_mm: Some(record.distance_m * 1e3),
             net_mm: Some(record.net_m * 1e3),
+            heat: s.slipped(contact).as_ref().map(heat),
+            worst: s.slip_heat[contact].map(|h| WorstSlip {
+                from_s: h.worst.from_s,
+                time_s: h.worst.time_s,
+                path_mm: h.worst.path_m * 1e3,
+                heat: heat(&h.worst),
+            }),
+        }
+    }
+}
+
+impl SlipHeat {
+    fn of(work: &SlipWork, wear_m2_per_n: Option<[f64; 2]>) -> Self {
+        let wear_um = wear_m2_per_n.map(|k| work.wear_m(k).map(|m| Unit::Micrometre.from_si(m)));
+        Self {
+            work_j: work.work_j,
+            power_w: work.power_w,
+            flux_w_per_mm2: Unit::WattPerSquareMillimetre.from_si(work.flux_w_m2),
+            flash_k: work.flash_k,
+            peclet: work.peclet,
+            sprag_wear_um: wear_um.map(|um| um[0]),
+            race_wear_um: wear_um.map(|um| um[1]),
         }
     }
 }
@@ -354,7 +415,7 @@ impl SimulationBody {
             theta_inner_end_rad: Some(s.theta_inner_rad),
             theta_outer_end_rad: Some(s.theta_outer_rad),
             offset_rad: Some(s.offset_rad),
-            slip: Slips { inner: Slip::of(&s.inner), outer: Slip::of(&s.outer) },
+            slip: Slips { inner: Slip::of(s, 0), outer: Slip::of(s, 1) },
             contact_lost_s: Some(s.contact_lost_s),
             peak_tan_demand: Some(s.peaks.tan_inner.max(s.peaks.tan_outer)),
             required_static_friction: known.and_then(|d| d.required_friction),

@@ -2,7 +2,7 @@
 
 use super::Ran;
 use crate::report::Unit;
-use crate::scenario::{ErrorEstimate, FIGURES, Figure, Prepared, Quantity, Simulation};
+use crate::scenario::{ErrorEstimate, FIGURES, Figure, Group, Prepared, Quantity, Simulation};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -20,6 +20,8 @@ fn unit(quantity: Quantity) -> Unit {
     match quantity {
         Quantity::Length => Unit::Millimetre,
         Quantity::Pressure => Unit::Megapascal,
+        Quantity::Flux => Unit::WattPerSquareMillimetre,
+        Quantity::Depth => Unit::Micrometre,
         // SI as it is.
         _ => Unit::One,
     }
@@ -28,7 +30,11 @@ fn unit(quantity: Quantity) -> Unit {
 impl SimulationErrors {
     pub(super) fn of(ran: &Ran, prepared: &Prepared, s: &Simulation, e: &ErrorEstimate) -> Self {
         let mut all: Vec<(&str, Vec<f64>)> = Vec::new();
+        let is_known = |key: &str| FIGURES.iter().any(|f| f.key == key && (f.of)(s).is_some());
         for figure in FIGURES {
+            if figure.line.is_some_and(|line| line.group == Group::Slip) && !is_known(figure.key) {
+                continue;
+            }
             let error = unit(figure.quantity).from_si(ran.error_of(figure, prepared, s, e));
             if figure.key == INNER_TAN {
                 all.push((LARGER, vec![e.tan_inner.max(e.tan_outer)]));

@@ -140,6 +140,11 @@ fn unit(quantity: Quantity) -> Unit {
         Quantity::Pressure => Unit::Megapascal,
         Quantity::Friction => Unit::One,
         Quantity::Margin | Quantity::ContactMargin => Unit::Percent,
+        Quantity::Work => Unit::Joule,
+        Quantity::Power => Unit::Watt,
+        Quantity::Flux => Unit::WattPerSquareMillimetre,
+        Quantity::Rise => Unit::Kelvin,
+        Quantity::Depth => Unit::Micrometre,
     }
 }
 
@@ -161,7 +166,7 @@ fn figures(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulation, g
 fn motion(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulation) {
     figures(f, scene, prepared, s, Group::Motion);
     assumed(f, scene);
-    for group in [Group::Reversal, Group::Lost, Group::Peaks, Group::Pressures] {
+    for group in [Group::Reversal, Group::Slip, Group::Lost, Group::Peaks, Group::Pressures] {
         figures(f, scene, prepared, s, group);
     }
     // Read off the curve, not integrated.
@@ -208,13 +213,16 @@ fn engaged_s(s: &Simulation) -> Option<f64> {
     s.engaged.map(|e| e.t_s).filter(|t_s| *t_s > 0.0)
 }
 
+fn once_engaged(t_s: f64) -> String {
+    format!(" (once engaged, from {})", Unit::Millisecond.show(t_s, 4))
+}
+
 /// Of a scene that begins in overrun: over which part of it a figure counts, where its label names no instant.
 fn counted(figure: &Figure, s: &Simulation) -> String {
     let Some((line, t_s)) = figure.line.zip(engaged_s(s)) else { return String::new() };
     match line.group {
-        Group::Motion if figure.key.contains("slip") => {
-            format!(" (once engaged, from {})", Unit::Millisecond.show(t_s, 4))
-        }
+        Group::Motion if figure.key.contains("slip") => once_engaged(t_s),
+        Group::Slip => once_engaged(t_s),
         Group::Lost => " (overrun and all)".to_owned(),
         Group::Demand if figure.quantity != Quantity::Friction => " (rolling once engaged)".to_owned(),
         _ => String::new(),

@@ -1,6 +1,6 @@
 //! What a scene leaves out beside what every answer leaves out, with the cost where the run itself shows it.
 
-use super::{Effect, Ran};
+use super::{Effect, Ran, slip};
 use crate::answer::left_out::{LeftOut, left_out_of};
 use crate::clutch::{ContactLaw, ScenarioKind};
 use crate::dynamics::Neglected;
@@ -13,6 +13,7 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
     let mut list = left_out_of(&scene.design);
     list.extend(scene.planned.iter().map(|t| LeftOut::new(t.term, &t.why, &t.cost)));
     list.extend(driven_cage(scene));
+    list.extend(scene.simulation().and_then(slip::left_out));
     let mut add = |term: &str, why: &str, cost: &str| list.push(LeftOut::new(term, why, cost));
     let kind = &scene.scenario.kind;
     if !kind.is_at_rest() {

@@ -11,13 +11,16 @@ mod page;
 #[cfg(feature = "validation")]
 mod published;
 mod settings;
+mod slip;
 mod stretch;
 mod table;
 mod train;
 pub(in crate::answer) mod unfelt;
 mod verdict;
 
-pub use body::{Energy, Equilibrium, Extreme, Extremes, Fast, SimulationBody, Slip, Slips};
+pub use body::{
+    Energy, Equilibrium, Extreme, Extremes, Fast, SimulationBody, Slip, SlipHeat, Slips, WorstSlip,
+};
 pub use damping::Effect;
 pub use errors::SimulationErrors;
 pub use history::{HistoryRow, SceneHistory, Values, word};
@@ -86,7 +89,12 @@ impl std::ops::Deref for SimulationAnswer {
 impl SimulationAnswer {
     /// On a terminal, with every figure.
     pub fn text_with_all_figures(&self, screen: Screen) -> String {
-        format!("{}\n\n{}", self.verdict_line(), facts::table(self).to_text(screen))
+        format!("{}\n\n{}{}", self.verdict_line(), facts::table(self).to_text(screen), self.slip_text())
+    }
+
+    /// What slip does to its surfaces; nothing where nothing slips.
+    fn slip_text(&self) -> String {
+        self.simulation().map_or(Vec::new(), slip::lines).iter().map(|line| format!("\n{line}\n")).collect()
     }
 }
 
@@ -121,7 +129,7 @@ impl Answer for SimulationAnswer {
     /// The verdict and the figures that say most of it.
     fn text(&self, screen: Screen) -> String {
         let (first, all) = facts::first_and_all(facts::table(self));
-        let mut text = format!("{}\n\n{}", self.verdict_line(), first.to_text(screen));
+        let mut text = format!("{}\n\n{}{}", self.verdict_line(), first.to_text(screen), self.slip_text());
         if let Some(all) = all {
             text += &format!("\nAll {} figures: --figures, --report or --json\n", all.rows.len());
         }

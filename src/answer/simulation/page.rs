@@ -1,7 +1,7 @@
 //! The HTML report of a simulation.
 
 use super::stretch::Stretch;
-use super::{HistoryRow, Ran, SimulationAnswer, facts, train};
+use super::{HistoryRow, Ran, SimulationAnswer, facts, slip as slip_words, train};
 use crate::answer::page::{draw, drawing, half, opened, pose_at_rest, pose_at_torque};
 use crate::answer::{Answer, Provenance};
 use crate::clutch::{Phrase, ScenarioKind};
@@ -26,6 +26,7 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
     let (first, all) = facts::first_and_all(facts::table(scene));
     page.narrow_table(&first);
     if let Ok((prepared, simulation)) = &scene.outcome {
+        page.list(slip_words::lines(simulation));
         if scene.method != "equilibrium" {
             histories(&mut page, scene, prepared, simulation);
         }

@@ -149,6 +149,7 @@ impl SimulationSettings {
             most_events: self.most_events,
             every_period: self.full,
             energy: true,
+            slip_heat: true,
             follow: self.follow.clone(),
         }
     }

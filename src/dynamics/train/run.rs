@@ -104,6 +104,7 @@ fn shortened<const N: usize>(run: Run<N>, train: Train) -> Run {
         inconsistent_choices: run.inconsistent_choices,
         fast_motion: run.fast_motion,
         energy: run.energy,
+        slip_heat: run.slip_heat,
         samples: run.samples.into_iter().map(sample).collect(),
         marked: run.marked,
         extremes: run.extremes.map(|s| s.map(sample)),
