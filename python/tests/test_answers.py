@@ -267,6 +267,14 @@ def test_every_key_of_json_is_an_attribute(design: sd.Design) -> None:
     assert set(law["points"][0]) <= known
 
 
+def test_a_table_is_set_as_one(design: sd.Design) -> None:
+    oil = {"oil": "ISO VG 32", "temperature_c": 60, "race_roughness_um": 0.25, "sprag_roughness_um": 0.25}
+    wet = design.set("lubrication", oil)
+    assert wet.overrun().to_dict()["oil"] == "ISO VG 32"
+    with pytest.raises(sd.DesignError, match="oil"):
+        design.set("lubrication", {**oil, "oil": "olive"})
+
+
 def test_a_changed_design_is_that_of_set(design: sd.Design, command: Command) -> None:
     said = command("check", MULTI_ARC, "--set", "r_i2_mm=4.1", "--set", "friction.static=0.11", "--json", "--quiet")
     changed = design.with_(r_i2_mm=4.1).set("friction.static", 0.11)

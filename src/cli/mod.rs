@@ -73,7 +73,7 @@ Exit codes:
 
 A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of
 its columns) and nobody goes on with it by hand, as with designs of new, size and the studio; --force replaces any.
-What cannot be written costs no answer: it is printed, with exit code 3.
+What cannot be written costs no answer: it is printed, with exit code 3; a folder that is not there is refused first, with 2.
 With --json whatever is refused or fails is one JSON object too: tool, version, error (message; of a refused design file
 also file and problems), with the same exit code.";
 

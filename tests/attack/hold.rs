@@ -15,6 +15,8 @@ const MAY_BE_NULL: &[&str] = &[
     "width_mm",
     "mass_g",
     "at_moved_s",
+    // Of a design whose scenes do not turn.
+    "at_speed",
     "bearing_stiffness_n_per_um",
     "best",
     "contact_lost_s",
@@ -95,6 +97,10 @@ const MAY_BE_NULL: &[&str] = &[
     "written",
     "written_to",
     "zeno_closures",
+    "end_torque_nm",
+    "required_friction",
+    "required_friction_at_rest",
+    "used_worn",
 ];
 
 /// What kind of fault it is: its words without figures.

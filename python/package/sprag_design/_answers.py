@@ -275,6 +275,8 @@ class Check(_Common):
     """How far a lift-off was looked for, rev/min."""
     overrun: Overrun
     """Overrun against speed."""
+    at_speed: dict[str, Any] | None
+    """What the rows without a scene leave out, which are at rest; ``None``: no scene carries torque while the races turn."""
     running: dict[str, Any] | None
     """Radii as made and as run; ``None``: the races run as made."""
     run_out: dict[str, Any] | None
@@ -988,6 +990,8 @@ class LifePlace:
     """Cycles that it sees in this life."""
     used: float | None
     """Share of its life that is used up (Miner); ``None``: no strength is given."""
+    used_worn: float | None
+    """The same of the clutch as it wears; ``None`` also where nothing is known to wear."""
     lives: float | None
     """How often this life fits in."""
     mostly_at_nm: float | None

@@ -8,7 +8,7 @@ import math
 import numbers
 import os
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +41,7 @@ from ._answers import (
 if TYPE_CHECKING:
     from ._answers import Numbers
 
-Setting = bool | int | float | str | Sequence[Any]
+Setting = bool | int | float | str | Sequence[Any] | Mapping[str, Any]
 
 
 def _toml(value: Any) -> str:
@@ -57,9 +57,11 @@ def _toml(value: Any) -> str:
         return str(int(value))
     if isinstance(value, numbers.Real):
         return repr(float(value))
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(str(key))} = {_toml(item)}" for key, item in value.items()) + " }"
     if isinstance(value, Iterable):
         return "[" + ", ".join(_toml(item) for item in value) + "]"
-    raise TypeError(f"{value!r} is no value of a design file: a number, a text, true, false or a list of these is")
+    raise TypeError(f"{value!r} is no value of a design file: a number, a text, true, false, a list or a table (dict) of these is")
 
 
 def _positive(name: str, values: Iterable[float]) -> list[float]:

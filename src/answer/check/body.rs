@@ -1,7 +1,7 @@
 //! The margins as table and as JSON.
 
 use super::overrun::OverrunSection;
-use super::{run_out, running};
+use super::{at_speed, run_out, running};
 use crate::answer::stiffness::CurveEnd;
 use crate::margin::{Demand, Left, Margin, Rule, When, lowest_capacity};
 use crate::report::{Cell, Rows, Table, Unit, greek, significant};
@@ -131,6 +131,8 @@ pub(super) struct Source {
     pub(super) materials: Vec<String>,
     /// Overrun against speed.
     pub(super) overrun: OverrunSection,
+    /// What the rows without a scene leave out.
+    pub(super) at_speed: Option<at_speed::AtSpeedSection>,
     /// Radii as made and as run, where they differ.
     pub(super) running: Option<running::RunningSection>,
     /// Load round the circumference, where the axes lie apart.
@@ -165,6 +167,8 @@ pub struct CheckBody {
     pub lift_off_searched_to_rpm: f64,
     /// Overrun against speed.
     pub overrun: OverrunSection,
+    /// What the rows without a scene leave out, which are at rest; null: no scene carries torque while the races turn.
+    pub at_speed: Option<at_speed::AtSpeedSection>,
     /// Radii as made and as run; null: the races run as made.
     pub running: Option<running::RunningSection>,
     /// Load round the circumference; null: the design names no eccentricity.
@@ -194,6 +198,7 @@ impl CheckBody {
             lift_off_rpm: source.lift_off_rad_s.map(rpm),
             lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
             overrun: source.overrun,
+            at_speed: source.at_speed,
             running: source.running,
             run_out: source.run_out,
         }
@@ -314,7 +319,15 @@ impl CheckBody {
         let lift_off = self.overrun.lift_off_remark(self.lift_off_rpm, self.lift_off_searched_to_rpm);
         let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
         let materials = self.materials.iter().cloned();
-        let all = early.into_iter().chain(far).chain(overrun).chain(running).chain(run_out).chain(materials);
+        let at_speed = self.at_speed.iter().map(at_speed::AtSpeedSection::remark);
+        let all = early
+            .into_iter()
+            .chain(far)
+            .chain(at_speed)
+            .chain(overrun)
+            .chain(running)
+            .chain(run_out)
+            .chain(materials);
         all.map(|line| greek(&line)).collect()
     }
 }

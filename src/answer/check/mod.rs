@@ -1,5 +1,6 @@
 //! What the margin check answers: rows, verdict, torque capacities, overrun, radii as run, load round the circumference.
 
+mod at_speed;
 mod body;
 mod charts;
 pub mod overrun;
@@ -208,10 +209,12 @@ impl Design {
             materials: beside_the_name(&self.source),
             searched_to_rad_s: LIFT_OFF_TO_RAD_S,
             overrun,
+            at_speed: at_speed::AtSpeedSection::new(self, &state, &rows),
             running: running::RunningSection::new(self, &state),
             run_out: ring.as_ref().map(|ring| run_out::RunOutSection::new(self, &state, ring)),
         };
-        let list = left_out_of(self);
+        let at_speed = source.at_speed.iter().map(at_speed::AtSpeedSection::left_out);
+        let list: Vec<LeftOut> = left_out_of(self).into_iter().chain(at_speed).collect();
         let left_out = match &source.run_out {
             Some(section) => off_centre(list, section.left_out()),
             None => list,

@@ -135,8 +135,10 @@ fn typed(value: f64) -> String {
     plain(value, 9)
 }
 
+/// Steps in which a frequency that is lost is looked for between one that is held and one that is not: a choice.
+pub(super) const LOOKS: usize = 16;
 /// Halvings of a ratio of frequencies between one that is held and one that is not.
-const HALVINGS: usize = 7;
+const HALVINGS: usize = 5;
 
 impl Design {
     /// What each stroke of an indexing drive feeds, at each frequency. Where it is stopped, the frequencies that were done.
@@ -239,6 +241,17 @@ impl FeedAnswer<'_> {
         let lost = list.iter().position(|fed| !self.feeds(fed));
         let Some(k) = lost.filter(|k| *k > 0) else { return Ok(None) };
         let (mut held_hz, mut lost_hz) = (list[k - 1].frequency_hz, list[k].frequency_hz);
+        // Held and lost may alternate: the first loss of a walk up is what is halved.
+        let ratio = (lost_hz / held_hz).powf(1.0 / LOOKS as f64);
+        for _ in 1..LOOKS {
+            let next_hz = held_hz * ratio;
+            let Some(stroke) = self.stroke(clutch, next_hz, follow)? else { return Ok(None) };
+            if !self.feeds(&stroke) {
+                lost_hz = next_hz;
+                break;
+            }
+            held_hz = next_hz;
+        }
         for _ in 0..HALVINGS {
             let middle_hz = (held_hz * lost_hz).sqrt();
             let Some(stroke) = self.stroke(clutch, middle_hz, follow)? else { return Ok(None) };

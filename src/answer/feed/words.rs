@@ -1,6 +1,6 @@
 //! What strokes come to, in words: the verdict, which number to change, what the answer rests on.
 
-use super::FeedAnswer;
+use super::{FeedAnswer, LOOKS};
 use crate::answer::inertia::{InertiaFrom, inertia_from};
 use crate::answer::{Finding, Said};
 use crate::report::{Unit, significant};
@@ -75,8 +75,11 @@ impl FeedAnswer<'_> {
         let (first, last) = (&self.list[0], &self.list[self.list.len() - 1]);
         if self.is_held() {
             return format!(
-                "HELD up to {}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake{rests}",
-                hertz(last.frequency_hz),
+                "HELD at {}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake{rests}",
+                match self.list.len() {
+                    1 => hertz(last.frequency_hz),
+                    n => format!("all {n} frequencies up to {}", hertz(last.frequency_hz)),
+                },
                 degrees(-last.error_rad),
                 degrees(self.case.stroke_rad),
                 degrees(self.windup_rad)
@@ -114,7 +117,7 @@ impl FeedAnswer<'_> {
         match self.limit_hz {
             Some(limit) => {
                 format!(
-                    "NOT HELD: {why}; on the way up from {} it first fails beyond {}{again}{rests}",
+                    "NOT HELD: {why}; on the way up from {} it first fails beyond {} (looked for in {LOOKS} steps){again}{rests}",
                     hertz(first.frequency_hz),
                     hertz(limit)
                 )

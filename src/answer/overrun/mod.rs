@@ -85,6 +85,8 @@ pub struct OverrunAnswer<'a> {
     asked: bool,
     /// Temperatures one after another, speeds in each.
     pub lines: Vec<OverrunLine>,
+    /// The first line at whose temperatures there is no clutch, or fit and gap are not known, and why.
+    pub no_clutch: Option<(OverrunLine, String)>,
     /// Fit and gap as the file has them.
     pub filed: WarmClutch,
     /// Speed of the race that the sprags ride with at which they lift off, rad/s: it does not depend on friction, which ends with the
@@ -201,7 +203,7 @@ impl Design {
             question.speeds_rad_s.sort_by(f64::total_cmp);
             question.speeds_rad_s.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * *b);
         }
-        let mut lines = Vec::new();
+        let (mut lines, mut no_clutch) = (Vec::new(), None);
         for &oil_c in &question.temperatures_c {
             let there = OilAt::new(self, oil_c);
             for &speed in &question.speeds_rad_s {
@@ -209,7 +211,11 @@ impl Design {
                 let found = there.line(&state, race, speed);
                 let mut line = found.map_err(|why| NoOverrun::AtSpeed { race, speed_rad_s: speed, why })?;
                 let heat = line.point.lubricated.map(|film| film.heat);
-                line.warm = heat.and_then(|heat| WarmClutch::at(self, &heat.temperatures));
+                match heat.map(|heat| WarmClutch::at(self, &heat.temperatures)) {
+                    Some(Ok(warm)) => line.warm = Some(warm),
+                    Some(Err(why)) if no_clutch.is_none() => no_clutch = Some((line, why)),
+                    _ => {}
+                }
                 lines.push(line);
             }
         }
@@ -223,6 +229,7 @@ impl Design {
             named_rad_s: named,
             asked,
             lines,
+            no_clutch,
             lift_off_rad_s: lift_off,
             slip,
         })

@@ -34,15 +34,18 @@ impl WarmClutch {
         }
     }
 
-    /// `design` at `bodies`, in place of those of its `[thermal]`; `None`: its steels have no expansion, or warm as that it is no clutch.
-    pub fn at(design: &Design, bodies: &Temperatures) -> Option<Self> {
+    /// `design` at `bodies`, in place of those of its `[thermal]`.
+    ///
+    /// # Errors
+    /// Why there is none: its steels have no expansion, or warm as that it is no clutch.
+    pub fn at(design: &Design, bodies: &Temperatures) -> Result<Self, String> {
         let values = [
             ("thermal.inner_race_c", bodies.inner_race),
             ("thermal.sprags_c", bodies.sprags),
             ("thermal.outer_race_c", bodies.outer_race),
         ];
-        let warm = design.with_values(&values).ok()?;
-        let state = load_state(&warm).ok()?;
-        Some(Self::of(&warm, &state))
+        let warm = design.with_values(&values).map_err(|refused| refused.to_string())?;
+        let state = load_state(&warm).map_err(|none| none.to_string())?;
+        Ok(Self::of(&warm, &state))
     }
 }

@@ -413,6 +413,27 @@ impl OverrunAnswer<'_> {
                 Walther::KNOWN_TO_C
             ));
         }
+        // Without any line of that kind it is the file that lacks something, which is said elsewhere.
+        if let Some((l, why)) = self.no_clutch.as_ref().filter(|_| self.knows_warm()) {
+            all.push(format!(
+                "Warning: at {} the clutch is none once it is as warm as that: {why}",
+                place(l)
+            ));
+        }
+        let peak_nm = self.design.limits.peak_torque_nm;
+        let short = |l: &&OverrunLine| {
+            let filed = self.filed.bears_nm.zip(peak_nm).is_some_and(|(bears, peak)| bears >= peak);
+            filed && l.warm.and_then(|w| w.bears_nm).zip(peak_nm).is_some_and(|(bears, peak)| bears < peak)
+        };
+        if let Some(l) = self.lines.iter().find(short) {
+            let bears = l.warm.and_then(|w| w.bears_nm).unwrap_or(0.0);
+            all.push(format!(
+                "Warning: as warm as at {} the clutch bears {}, less than the {} of limits.peak_torque_nm",
+                place(l),
+                Unit::NewtonMetre.show(bears, 5),
+                Unit::NewtonMetre.show(peak_nm.unwrap_or(0.0), 5)
+            ));
+        }
         if let Some(s) = self.slip.filter(|s| s.peclet < 5.0) {
             all.push(format!(
                 "Note: Peclet number of the slip {}, below 5: heat goes sideways too, the flash is less than {}",

@@ -123,9 +123,14 @@ impl ResonanceAnswer<'_> {
             "unstable",
             "disengages",
         ];
-        // Colours go to those that are there: there are fewer than kinds.
+        // Green is what rolls; other colours go to those that are there: there are fewer than kinds.
+        const OTHERS: [usize; 5] = [1, 3, 0, 4, 5];
         let there: Vec<usize> = (0..NAMES.len()).filter(|k| self.cells().any(|c| kind(c) == *k)).collect();
-        let shade = |of: usize| Shade::Kind(there.iter().position(|k| *k == of).unwrap_or(0));
+        let others = || there.iter().filter(|k| **k != 0);
+        let shade = |of: usize| match others().position(|k| *k == of) {
+            Some(place) => Shade::Kind(OTHERS[place.min(OTHERS.len() - 1)]),
+            None => Shade::Held(SHADES / 2),
+        };
         let tile = |c: &ResonanceCell| (shade(kind(c)), Some(c.state.kind == MotionKind::Rolls));
         let tiles = self.cells().map(tile).collect();
         let legend = there.iter().map(|&k| (shade(k), NAMES[k].to_owned())).collect();

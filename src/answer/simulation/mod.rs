@@ -108,6 +108,7 @@ impl Answer for SimulationAnswer {
                 Finding::Stopped
             }
             Some(s) if s.verdict.is_none() || s.stop.gave_up() => Finding::NotKnown,
+            None => Finding::NotKnown,
             _ => Finding::Shown,
         }
     }
