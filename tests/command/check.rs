@@ -3,7 +3,7 @@
 use crate::program::*;
 use sprag_design::answer::Answer;
 use sprag_design::report::Screen;
-use sprag_design::{Design, Follow, Settings, margins};
+use sprag_design::{Design, Follow, Settings, WedgeCurve, margins};
 
 #[test]
 fn the_multi_arc_design_holds() {
@@ -523,4 +523,30 @@ fn several_files_are_answered_one_after_another() {
     let none = run(&["simulate", files[0]]);
     let said = String::from_utf8_lossy(&none.stderr).into_owned();
     assert!(none.status.code() == Some(2) && said.contains("high-10"), "{said}");
+}
+
+/// A clutch whose rows at rest are held and that ends below its peak torque at its own speed is warned of; the figures are those of the curve
+/// at that speed.
+#[test]
+fn rows_at_rest_say_what_speed_changes() {
+    let text = std::fs::read_to_string("designs/huang2017-multi-arc.toml").unwrap();
+    let calm = Design::parse(&text, "calm.toml").unwrap().check(&Follow::nobody()).unwrap();
+    let section = calm.body.at_speed.as_ref().unwrap();
+    assert_eq!((section.speed_rpm.round(), section.warning()), (12000.0, None));
+    let clutch = &calm.design.clutch;
+    let curve =
+        WedgeCurve::build(clutch, &clutch.profile().unwrap(), 12000.0 * std::f64::consts::PI / 30.0).unwrap();
+    assert!((section.end_torque_nm.unwrap() / curve.end_torque_nm() - 1.0).abs() < 1e-12);
+    assert!(curve.end_torque_nm() < calm.state.curve.end_torque_nm());
+    assert!(calm.left_out.iter().any(|e| e.cost.contains("at 12000 rpm")));
+    let most = 0.5 * (curve.end_torque_nm() + calm.state.curve.end_torque_nm());
+    let tight = text.replace("peak_torque_nm = 110.0", &format!("peak_torque_nm = {most}"));
+    assert_ne!(tight, text);
+    let tight = Design::parse(&tight, "tight.toml").unwrap().check(&Follow::nobody()).unwrap();
+    let warning = tight.body.at_speed.as_ref().unwrap().warning().unwrap();
+    assert!(
+        warning.contains("are not carried") && tight.text(Screen::default()).contains(&warning),
+        "{warning}"
+    );
+    assert!(tight.sheet().text(Screen::default()).contains(&warning));
 }

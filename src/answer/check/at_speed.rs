@@ -96,15 +96,16 @@ impl AtSpeedSection {
         )
     }
 
-    /// The same as a line, a warning where a limit that is held at rest is not there.
-    pub fn remark(&self) -> String {
-        format!(
-            "{}Rows without a scene are at rest; at {} rpm ({}) {}",
-            if self.fails() { "Warning: " } else { "" },
-            significant(self.speed_rpm, 4),
-            self.scenario,
-            self.words()
-        )
+    /// A warning where a limit that is held at rest is not there.
+    pub fn warning(&self) -> Option<String> {
+        self.fails().then(|| {
+            format!(
+                "Warning: rows without a scene are at rest; at {} rpm ({}) {}",
+                significant(self.speed_rpm, 4),
+                self.scenario,
+                self.words()
+            )
+        })
     }
 
     pub(super) fn left_out(&self) -> LeftOut {

@@ -319,7 +319,7 @@ impl CheckBody {
         let lift_off = self.overrun.lift_off_remark(self.lift_off_rpm, self.lift_off_searched_to_rpm);
         let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
         let materials = self.materials.iter().cloned();
-        let at_speed = self.at_speed.iter().map(at_speed::AtSpeedSection::remark);
+        let at_speed = self.at_speed.iter().filter_map(at_speed::AtSpeedSection::warning);
         let all = early
             .into_iter()
             .chain(far)

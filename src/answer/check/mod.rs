@@ -143,7 +143,9 @@ impl Answer for DesignSheet<'_> {
     }
 
     fn text(&self, _: Screen) -> String {
-        let lines = std::iter::once(self.verdict()).chain(self.0.body.capacity_lines());
+        let body = &self.0.body;
+        let lines = std::iter::once(self.verdict()).chain(body.capacity_lines());
+        let lines = lines.chain(body.at_speed.as_ref().and_then(at_speed::AtSpeedSection::warning));
         lines.map(|line| line + "\n").collect()
     }
 

@@ -31,6 +31,7 @@ fn source(lift_off_rad_s: Option<f64>) -> Source {
         lift_off_rad_s,
         searched_to_rad_s: 100.0,
         overrun: OverrunSection::new(&curve, Vec::new(), &design, None),
+        at_speed: None,
         running: None,
         run_out: None,
     }

@@ -2,6 +2,7 @@
 
 use crate::answer::reengagement::peak_torque_borne;
 use crate::design::Design;
+use crate::file::DesignError;
 use crate::lubrication::Temperatures;
 use crate::margin::{LoadState, load_state};
 
@@ -44,7 +45,11 @@ impl WarmClutch {
             ("thermal.sprags_c", bodies.sprags),
             ("thermal.outer_race_c", bodies.outer_race),
         ];
-        let warm = design.with_values(&values).map_err(|refused| refused.to_string())?;
+        let why = |refused: DesignError| match refused.problems().first() {
+            Some(problem) => format!("found {}; allowed {}", problem.found, problem.allowed),
+            None => refused.to_string(),
+        };
+        let warm = design.with_values(&values).map_err(why)?;
         let state = load_state(&warm).map_err(|none| none.to_string())?;
         Ok(Self::of(&warm, &state))
     }
