@@ -108,7 +108,6 @@ impl Answer for SimulationAnswer {
                 Finding::Stopped
             }
             Some(s) if s.verdict.is_none() || s.stop.gave_up() => Finding::NotKnown,
-            None => Finding::NotKnown,
             _ => Finding::Shown,
         }
     }
