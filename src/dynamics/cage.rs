@@ -38,21 +38,21 @@ pub(super) struct Point {
 
 impl Point {
     /// From C_e: forward and outward, m.
-    fn from_c_e(&self, oc_e: f64) -> [f64; 2] {
+    fn beside_c_e(&self, oc_e: f64) -> [f64; 2] {
         let (sin, cos) = self.ahead.sin_cos();
         [self.radius * sin, self.radius * cos - oc_e]
     }
 
     /// The point where the sprag is tilted open by `tilt` about C_e, whose radius then is `to` instead of `oc_e`.
     fn turned(&self, oc_e: f64, tilt: f64, to: f64) -> Self {
-        let ([x, y], (sin, cos)) = (self.from_c_e(oc_e), tilt.sin_cos());
+        let ([x, y], (sin, cos)) = (self.beside_c_e(oc_e), tilt.sin_cos());
         let [x, y] = [x * cos - y * sin, x * sin + y * cos + to];
         Self { radius: x.hypot(y), ahead: x.atan2(y) }
     }
 
     /// The tilt at which its radius is `radius`; the one that brings it farthest out where none does.
     fn tilt_to(&self, radius: f64, oc_e: f64, to: f64) -> f64 {
-        let [x, y] = self.from_c_e(oc_e);
+        let [x, y] = self.beside_c_e(oc_e);
         let from_c_e = x.hypot(y);
         let cosine = (radius * radius - to * to - from_c_e * from_c_e) / (2.0 * to * from_c_e);
         x.atan2(y) - cosine.clamp(-1.0, 1.0).acos()
@@ -153,7 +153,7 @@ impl Held {
     }
 
     /// Azimuth of A ahead of P, rad.
-    pub fn to_a(&self) -> f64 {
+    pub fn a_ahead_of_p(&self) -> f64 {
         self.c_1.ahead - self.p.ahead
     }
 
@@ -181,7 +181,7 @@ impl Held {
 
     /// N_be = `n` (N), B sliding.
     fn at(&self, n: f64, b: &SlidingContact) -> Balance {
-        let (sin_a, cos_a) = self.to_a().sin_cos();
+        let (sin_a, cos_a) = self.a_ahead_of_p().sin_cos();
         let outward = self.outward_n(n, b);
         let normal_inner_n = (-outward).max(0.0) / cos_a;
         let sin_b = (self.p.ahead - b.ahead_m / self.ob).sin();
@@ -200,7 +200,7 @@ impl Held {
         let sin_b = (self.p.ahead - b.ahead_m / ob).sin();
         [
             n * (op * sin_b + b.friction * (ob - op * self.p.ahead.cos())),
-            normal_inner_n * op * self.to_a().sin(),
+            normal_inner_n * op * self.a_ahead_of_p().sin(),
             self.lifting_nm(),
         ]
     }
@@ -255,14 +255,15 @@ impl CageFacts {
         let held = touching.on_stop(cage.clearance_m, 0.0);
         let b = touching.at(1.0, &SlidingContact::dry(DRAG_FRICTION));
         // A force forward at A, below P, turns the sprag open.
-        let more =
-            DRAG_FRICTION * b.normal_inner_n * (touching.p.radius * touching.to_a().cos() - touching.oa);
+        let more = DRAG_FRICTION
+            * b.normal_inner_n
+            * (touching.p.radius * touching.a_ahead_of_p().cos() - touching.oa);
         let (op, oc_g, oc_e, pi) = (held.p.radius, held.g.radius, held.oc_e, held.pi());
         let closing = alpha_max_rad - held.alpha;
         let of_measured = (alpha_max_rad - touching.alpha) / closing;
         // P x G = OP d sin kappa; tilting open by psi makes kappa less by psi, the moment of the spring K_r (alpha_max + psi). Of OP lever,
         // m^2, by a tilt about C_e:
-        let [[_, p_out], [_, g_out]] = [held.p, held.g].map(|point| point.from_c_e(oc_e));
+        let [[_, p_out], [_, g_out]] = [held.p, held.g].map(|point| point.beside_c_e(oc_e));
         let turning = oc_e * (p_out - g_out);
         let (lever, outward) = (-oc_g * pi.sin(), oc_g * pi.cos() - op);
         Some(Self {

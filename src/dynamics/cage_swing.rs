@@ -96,7 +96,7 @@ impl About<'_> {
         let b = self.sliding(self.speed_m_s + faster, n);
         let opens = held.c_1.radius - at.c_1.radius;
         let normal_inner_n = self.steady.normal_inner_n - self.inner_n_per_m * opens;
-        let outward = held.outward_n(n, &b) + normal_inner_n * held.to_a().cos();
+        let outward = held.outward_n(n, &b) + normal_inner_n * held.a_ahead_of_p().cos();
         let opening: f64 = held.opening_nm(n, &b, normal_inner_n).iter().sum();
         [outward, opening - held.closing_nm(self.clutch, self.alpha_max)]
     }
