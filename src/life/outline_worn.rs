@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 /// Radius of the edge of a flat, as a part of that of its arc: a choice; a sharp edge would be worn blunt itself.
 pub const BLUNT: f64 = 0.005;
 /// The same for a law that knows the radius, whose patch does not settle on a sharper edge: life until slip is some 17 % longer by it
-/// (`designs/lubricated.toml` with either). [`WornLife::sharp_share`] says what it would be.
+/// (`designs/lubricated.toml` with either). [`super::WornLife::sharp_share`] says what it would be.
 pub const BLUNT_BY_RADIUS: f64 = 0.05;
 /// A clutch that has worn.
 #[derive(Debug, Clone)]
