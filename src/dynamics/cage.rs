@@ -260,7 +260,8 @@ impl CageFacts {
             * (touching.p.radius * touching.a_ahead_of_p().cos() - touching.oa);
         let (op, oc_g, oc_e, pi) = (held.p.radius, held.g.radius, held.oc_e, held.pi());
         let closing = alpha_max_rad - held.alpha;
-        let of_measured = (alpha_max_rad - touching.alpha) / closing;
+        let measured = alpha_max_rad - touching.alpha;
+        let of_measured = if closing > 0.0 { measured / closing } else { 1.0 };
         // P x G = OP d sin kappa; tilting open by psi makes kappa less by psi, the moment of the spring K_r (alpha_max + psi). Of OP lever,
         // m^2, by a tilt about C_e:
         let [[_, p_out], [_, g_out]] = [held.p, held.g].map(|point| point.beside_c_e(oc_e));

@@ -343,6 +343,26 @@ fn the_commands_say_which_race_is_meant() {
     }
 }
 
+#[test]
+fn without_a_spring_nothing_presses_and_every_figure_is_one() {
+    for clearance_um in ["0", "5"] {
+        let (from, to) = loose(clearance_um);
+        for spring in ["drag_torque_nm = 0.0", "drag_torque_nm = 1e-9"] {
+            let (design, state) = changed(&[(from, &to), ("drag_torque_nm = 0.6", spring)]);
+            let facts = CageFacts::of(&design.clutch, &state.curve, state.alpha_max_rad).unwrap();
+            assert!(
+                facts.lift_off_higher.is_finite() && facts.lift_off_higher_per_m.is_finite(),
+                "{facts:?}"
+            );
+            for rpm in [1.0, 100.0, 3000.0] {
+                let point = overrun_at(&design, &state, 0.0, rad_s(rpm)).unwrap();
+                assert!(point.state.sliding_n.is_finite() && point.state.sliding_n >= 0.0, "{point:?}");
+                assert!(point.swing.is_none_or(|s| s.growth_rate_per_s.is_finite()), "{point:?}");
+            }
+        }
+    }
+}
+
 /// A pivot that may go outward by c: the sprag turned open about C_e in Cartesian coordinates until P is c farther out, at that speed of
 /// lift-off.
 #[test]
