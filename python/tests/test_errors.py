@@ -40,7 +40,7 @@ def test_unknown_names_are_refused_with_the_nearest(design: sd.Design) -> None:
         design.set("friction.statik", 0.1)
     with pytest.raises(sd.DesignError):
         design.with_(r_i2_mm=float("nan"))
-    with pytest.raises(TypeError, match="a list of these"):
+    with pytest.raises(TypeError, match="a list or a table"):
         design.set("friction.static", object())  # type: ignore[arg-type]
     with pytest.raises(KeyError, match="high-10"):
         design.simulate("high-99")
