@@ -344,10 +344,10 @@ fn the_commands_say_which_race_is_meant() {
 }
 
 #[test]
-fn without_a_spring_nothing_presses_and_every_figure_is_one() {
+fn a_spring_of_nearly_nothing_leaves_finite_figures() {
     for clearance_um in ["0", "5"] {
         let (from, to) = loose(clearance_um);
-        for spring in ["drag_torque_nm = 0.0", "drag_torque_nm = 1e-9"] {
+        for spring in ["drag_torque_nm = 1e-30", "drag_torque_nm = 1e-9"] {
             let (design, state) = changed(&[(from, &to), ("drag_torque_nm = 0.6", spring)]);
             let facts = CageFacts::of(&design.clutch, &state.curve, state.alpha_max_rad).unwrap();
             assert!(
