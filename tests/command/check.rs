@@ -538,7 +538,6 @@ fn rows_at_rest_say_what_speed_changes() {
         WedgeCurve::build(clutch, &clutch.profile().unwrap(), 12000.0 * std::f64::consts::PI / 30.0).unwrap();
     assert!((section.end_torque_nm.unwrap() / curve.end_torque_nm() - 1.0).abs() < 1e-12);
     assert!(curve.end_torque_nm() < calm.state.curve.end_torque_nm());
-    assert!(calm.left_out.iter().any(|e| e.cost.contains("at 12000 rpm")));
     let most = 0.5 * (curve.end_torque_nm() + calm.state.curve.end_torque_nm());
     let tight = text.replace("peak_torque_nm = 110.0", &format!("peak_torque_nm = {most}"));
     assert_ne!(tight, text);

@@ -1,6 +1,5 @@
 //! What the rows without a scene leave out: they are at rest, and the clutch carries its torque while the races turn.
 
-use crate::answer::left_out::LeftOut;
 use crate::design::Design;
 use crate::margin::{LoadState, Margin};
 use crate::report::{Unit, significant};
@@ -106,13 +105,5 @@ impl AtSpeedSection {
                 self.words()
             )
         })
-    }
-
-    pub(super) fn left_out(&self) -> LeftOut {
-        LeftOut::new(
-            "growth of the outer race at speed, (7), and the centrifugal force of the sprags, in rows without a scene",
-            "limits at nominal and peak torque, and torque capacities, are those of the clutch at rest; scenes have their speed",
-            &format!("at {} rpm ({}) {}", significant(self.speed_rpm, 4), self.scenario, self.words()),
-        )
     }
 }

@@ -21,6 +21,8 @@ pub use body::{
 
 pub(super) use text::{REACHED_AT, much_friction, size_line};
 
+use at_speed::AtSpeedSection;
+
 use super::left_out::{LeftOut, left_out_of, off_centre};
 use super::{Answer, Envelope, Finding, Provenance};
 use crate::clutch::Scenario;
@@ -145,7 +147,7 @@ impl Answer for DesignSheet<'_> {
     fn text(&self, _: Screen) -> String {
         let body = &self.0.body;
         let lines = std::iter::once(self.verdict()).chain(body.capacity_lines());
-        let lines = lines.chain(body.at_speed.as_ref().and_then(at_speed::AtSpeedSection::warning));
+        let lines = lines.chain(body.at_speed.as_ref().and_then(AtSpeedSection::warning));
         lines.map(|line| line + "\n").collect()
     }
 
@@ -211,12 +213,11 @@ impl Design {
             materials: beside_the_name(&self.source),
             searched_to_rad_s: LIFT_OFF_TO_RAD_S,
             overrun,
-            at_speed: at_speed::AtSpeedSection::new(self, &state, &rows),
+            at_speed: AtSpeedSection::new(self, &state, &rows),
             running: running::RunningSection::new(self, &state),
             run_out: ring.as_ref().map(|ring| run_out::RunOutSection::new(self, &state, ring)),
         };
-        let at_speed = source.at_speed.iter().map(at_speed::AtSpeedSection::left_out);
-        let list: Vec<LeftOut> = left_out_of(self).into_iter().chain(at_speed).collect();
+        let list = left_out_of(self);
         let left_out = match &source.run_out {
             Some(section) => off_centre(list, section.left_out()),
             None => list,

@@ -5,8 +5,8 @@ use super::{HistoryRow, Ran, SimulationAnswer, facts, slip as slip_words, train}
 use crate::answer::page::{draw, drawing, half, opened, pose_at_rest, pose_at_torque};
 use crate::answer::{Answer, Provenance};
 use crate::clutch::{Phrase, ScenarioKind};
-use crate::report::{Curve, Dash, Page, Plot, Unit};
-use crate::scenario::{Prepared, Simulation};
+use crate::report::{Cell, Curve, Dash, Page, Plot, Unit};
+use crate::scenario::{Group, Prepared, Simulation, figures_of};
 use crate::wedge::{Lengthwise, Side, along};
 
 /// From here on ticks run into the title of the axis, which is then in the next larger unit.
@@ -26,12 +26,20 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
     let (first, all) = facts::first_and_all(facts::table(scene));
     page.narrow_table(&first);
     if let Ok((prepared, simulation)) = &scene.outcome {
-        page.list(slip_words::lines(simulation));
         if scene.method != "equilibrium" {
             histories(&mut page, scene, prepared, simulation);
         }
-        if let Some(all) = all {
-            page.folded("All figures of this scene, with their errors", |page| {
+        page.list(slip_words::lines(simulation));
+        if let Some(mut all) = all {
+            // What slip does to its surfaces stands above in words.
+            let said: Vec<&str> =
+                figures_of(Group::Slip).iter().filter_map(|f| Some(f.line?.label)).collect();
+            let is_said = |row: &[Cell]| match row.first() {
+                Some(Cell::Text(name)) => said.iter().any(|label| name.starts_with(label)),
+                _ => false,
+            };
+            all.rows.retain(|row| !is_said(row));
+            page.folded("All figures of this scene but those of slip, with their errors", |page| {
                 page.narrow_table(&all);
             });
         }
