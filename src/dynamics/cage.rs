@@ -37,17 +37,27 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// From C_e: forward and outward, m.
-    fn beside_c_e(&self, oc_e: f64) -> [f64; 2] {
+    /// Forward and outward from the axis, outward through C_e, m.
+    pub fn cartesian(&self) -> [f64; 2] {
         let (sin, cos) = self.ahead.sin_cos();
-        [self.radius * sin, self.radius * cos - oc_e]
+        [self.radius * sin, self.radius * cos]
+    }
+
+    /// The point there.
+    pub fn at([x, y]: [f64; 2]) -> Self {
+        Self { radius: x.hypot(y), ahead: x.atan2(y) }
+    }
+
+    /// The same from C_e.
+    fn beside_c_e(&self, oc_e: f64) -> [f64; 2] {
+        let [x, y] = self.cartesian();
+        [x, y - oc_e]
     }
 
     /// The point where the sprag is tilted open by `tilt` about C_e, whose radius then is `to` instead of `oc_e`.
     fn turned(&self, oc_e: f64, tilt: f64, to: f64) -> Self {
         let ([x, y], (sin, cos)) = (self.beside_c_e(oc_e), tilt.sin_cos());
-        let [x, y] = [x * cos - y * sin, x * sin + y * cos + to];
-        Self { radius: x.hypot(y), ahead: x.atan2(y) }
+        Self::at([x * cos - y * sin, x * sin + y * cos + to])
     }
 
     /// The tilt at which its radius is `radius`; the one that brings it farthest out where none does.

@@ -46,11 +46,7 @@ impl About<'_> {
     fn sliding(&self, speed_m_s: f64, n: f64) -> SlidingContact {
         let speed = speed_m_s.abs();
         match self.film {
-            Some(law) => SlidingContact {
-                friction: law.coefficient(speed, n),
-                ahead_m: law.ahead_m(speed, n),
-                gap_m: 0.0,
-            },
+            Some(law) => SlidingContact::on(law, speed, n),
             None => SlidingContact::dry(self.dry.coefficient(speed)),
         }
     }
@@ -58,17 +54,12 @@ impl About<'_> {
     /// The sprag moved by r and theta.
     fn moved(&self, [r, theta, ..]: Motion) -> Held {
         let Held { p, oc_e, .. } = self.held;
-        let cartesian = |point: Point| {
-            let (sin, cos) = point.ahead.sin_cos();
-            [point.radius * sin, point.radius * cos]
-        };
-        let (from, to) = (cartesian(p), cartesian(Point { radius: p.radius + r, ..p }));
+        let (from, to) = (p.cartesian(), Point { radius: p.radius + r, ..p }.cartesian());
         let (sin, cos) = theta.sin_cos();
         let moved = |point: Point| {
-            let [x, y] = cartesian(point);
+            let [x, y] = point.cartesian();
             let [x, y] = [x - from[0], y - from[1]];
-            let [x, y] = [to[0] + x * cos - y * sin, to[1] + x * sin + y * cos];
-            Point { radius: x.hypot(y), ahead: x.atan2(y) }
+            Point::at([to[0] + x * cos - y * sin, to[1] + x * sin + y * cos])
         };
         let c_e = moved(Point { radius: oc_e, ahead: 0.0 });
         let seen = |point: Point| Point { ahead: point.ahead - c_e.ahead, ..point };
@@ -114,10 +105,10 @@ impl About<'_> {
     /// The matrix of d/dt (r, theta, r', theta'), or of (theta, theta') on the stop; `None` where the inertia is none.
     fn matrix(&self) -> Option<DMatrix<f64>> {
         let Held { p, g, mass_kg: m, cage_rad_s, .. } = self.held;
-        let (sin_p, cos_p) = p.ahead.sin_cos();
-        let (sin_g, cos_g) = g.ahead.sin_cos();
-        let from_p = [g.radius * sin_g - p.radius * sin_p, g.radius * cos_g - p.radius * cos_p];
-        let (u_r, u_theta) = ([sin_p, cos_p], [-from_p[1], from_p[0]]);
+        let (sin, cos) = p.ahead.sin_cos();
+        let ([p_x, p_y], [g_x, g_y]) = (p.cartesian(), g.cartesian());
+        let from_p = [g_x - p_x, g_y - p_y];
+        let (u_r, u_theta) = ([sin, cos], [-from_p[1], from_p[0]]);
         let dot = u_r[0] * u_theta[0] + u_r[1] * u_theta[1];
         let cross = u_theta[0] * u_r[1] - u_theta[1] * u_r[0];
         let about_p = self.clutch.sprags.inertia_kg_m2 + m * (from_p[0] * from_p[0] + from_p[1] * from_p[1]);
@@ -189,7 +180,7 @@ fn about(
         return None;
     }
     let touching = Held::new(clutch, cage, touch, cage_rad_s);
-    let gap = film.map_or(0.0, |film| film.gap_m(speed_m_s, n));
+    let gap = film.map_or(0.0, |film| SlidingContact::on(film, speed_m_s, n).gap_m);
     let yields = |n: f64| Some(touch.closure_at_normal(n)?.1.deformations);
     let outer = match outer {
         Some(outer) => outer,

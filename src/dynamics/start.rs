@@ -2,6 +2,7 @@
 
 use super::model::{Model, Place, State};
 use crate::clutch::Clutch;
+use crate::friction::FilmFriction;
 use crate::kinematics::levers;
 use crate::numeric::root;
 use crate::wedge::{StaticPoint, WedgeCurve, WedgePoint};
@@ -168,6 +169,12 @@ pub struct SlidingContact {
 }
 
 impl SlidingContact {
+    /// On a film, sliding at `speed_abs_m_s` under `normal_n`.
+    pub fn on(film: &FilmFriction, speed_abs_m_s: f64, normal_n: f64) -> Self {
+        let [friction, ahead_m, gap_m] = film.felt(speed_abs_m_s, normal_n);
+        Self { friction, ahead_m, gap_m }
+    }
+
     /// Without a film.
     pub fn dry(friction: f64) -> Self {
         Self { friction, ahead_m: 0.0, gap_m: 0.0 }

@@ -89,32 +89,31 @@ impl FilmFriction {
         FilmState { film, lambda, asperities, shear, tangential_n }
     }
 
-    /// x_p, how far ahead of the contact, where the race comes from, the film's pressure acts, m: the moments on the film are in
-    /// balance, so x_p N = 2 R F with F the rolling shear of either surface, whatever the regime; the asperities' part acts at the contact.
-    pub fn ahead_m(&self, speed_abs_m_s: f64, normal_n: f64) -> f64 {
-        if normal_n <= LEAST_N {
-            return 0.0;
-        }
-        let state = self.at(speed_abs_m_s, normal_n);
-        (1.0 - state.asperities) * 2.0 * self.contact.radius_m * state.shear.rolling_n / normal_n
-    }
-
-    /// How far apart it keeps the bodies, m: h_0 of rigid ones; no more than [`Film::THIN`] of their radius, beyond which nothing presses.
-    pub fn gap_m(&self, speed_abs_m_s: f64, normal_n: f64) -> f64 {
+    /// What a sprag feels of it, by one look at the film:
+    ///
+    /// * T/N; that of the asperities without a load, where T is none.
+    /// * x_p, how far ahead of the contact, where the race comes from, the film's pressure acts, m: the moments on the film are in balance,
+    ///   so x_p N = 2 R F with F the rolling shear of either surface, whatever the regime; the asperities' part acts at the contact.
+    /// * How far apart it keeps the bodies, m: h_0 of rigid ones; no more than [`Film::THIN`] of their radius, beyond which nothing presses.
+    pub fn felt(&self, speed_abs_m_s: f64, normal_n: f64) -> [f64; 3] {
         let thickest = Film::THIN * self.contact.radius_m;
-        match normal_n > LEAST_N {
-            _ if speed_abs_m_s <= 0.0 => 0.0,
-            true => film(&self.contact, &self.fluid, speed_abs_m_s, normal_n).least_m().min(thickest),
-            false => thickest,
+        if normal_n > LEAST_N {
+            let state = self.at(speed_abs_m_s, normal_n);
+            let rolling = (1.0 - state.asperities) * 2.0 * self.contact.radius_m * state.shear.rolling_n;
+            [state.tangential_n / normal_n, rolling / normal_n, state.film.least_m().min(thickest)]
+        } else {
+            [self.boundary, 0.0, if speed_abs_m_s > 0.0 { thickest } else { 0.0 }]
         }
     }
 
-    /// T/N; that of the asperities without a load, where T is none.
+    /// T/N of [`Self::felt`].
     pub fn coefficient(&self, speed_abs_m_s: f64, normal_n: f64) -> f64 {
-        match normal_n > LEAST_N {
-            true => self.at(speed_abs_m_s, normal_n).tangential_n / normal_n,
-            false => self.boundary,
-        }
+        self.felt(speed_abs_m_s, normal_n)[0]
+    }
+
+    /// x_p of [`Self::felt`], m.
+    pub fn ahead_m(&self, speed_abs_m_s: f64, normal_n: f64) -> f64 {
+        self.felt(speed_abs_m_s, normal_n)[1]
     }
 
     /// How the film follows a change, about the state at a speed and a load: (-dN/dh at that speed, N/m; dh/dv at that load, s; c, N s/m).

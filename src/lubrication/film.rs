@@ -68,7 +68,7 @@ impl Film {
 
     /// h_0, where rigid bodies are closest, m: the largest pressure lies ahead of it.
     pub fn least_m(&self) -> f64 {
-        self.thickness_m / (1.0 + BREAKS * BREAKS)
+        least_m(self.thickness_m)
     }
 
     /// Whether it lies in that range.
@@ -118,6 +118,11 @@ fn moes(m: f64, l: f64) -> (f64, Regime) {
 /// Where the film of a rigid contact breaks, x/sqrt(2 R h_0), Reynolds' condition p = dp/dx = 0.
 pub(super) const BREAKS: f64 = 0.475_406_9;
 
+/// h_0 of a rigid contact whose film is so thick at the largest pressure, m.
+fn least_m(thickness_m: f64) -> f64 {
+    thickness_m / (1.0 + BREAKS * BREAKS)
+}
+
 /// Damping of a film against a change of its thickness, N s/m: Reynolds' equation with dh/dt for rigid surfaces,
 /// linear about a steady film that is full up to where it breaks, p = 0 at both ends:
 ///
@@ -127,7 +132,7 @@ pub(super) const BREAKS: f64 = 0.475_406_9;
 pub fn squeeze_n_s_per_m(contact: &FilmContact, fluid: &Fluid, thickness_m: f64) -> f64 {
     let c = BREAKS;
     let end = 1.0 + c * c;
-    let least = thickness_m / end;
+    let least = least_m(thickness_m);
     let angle = c.atan() + 0.5 * PI;
     let second = 0.5 * (c / end + angle);
     let third = c / (4.0 * end * end) + 0.75 * second;
@@ -143,6 +148,5 @@ pub fn squeeze_out_s(contact: &FilmContact, fluid: &Fluid, thickness_m: f64, to_
         return 0.0;
     }
     let damping = squeeze_n_s_per_m(contact, fluid, thickness_m);
-    let least_m = thickness_m / (1.0 + BREAKS * BREAKS);
-    2.0 * damping * least_m * ((thickness_m / to_m).sqrt() - 1.0) / load_n
+    2.0 * damping * least_m(thickness_m) * ((thickness_m / to_m).sqrt() - 1.0) / load_n
 }

@@ -159,8 +159,7 @@ impl Steady<'_> {
         let law = FilmFriction::in_overrun(self.clutch, film_c)?;
         let speed = self.sliding_rad_s() * self.clutch.sliding_track_m();
         let state = settled(self.clutch, self.curve, self.alpha_max_rad, self.ahead_rad_s, |n| {
-            let (friction, ahead_m) = (law.coefficient(speed, n), law.ahead_m(speed, n));
-            SlidingContact { friction, ahead_m, gap_m: law.gap_m(speed, n) }
+            SlidingContact::on(&law, speed, n)
         });
         if state.sliding_n <= 0.0 {
             return None;
