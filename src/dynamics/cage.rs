@@ -30,7 +30,7 @@ use crate::numeric::root;
 use crate::wedge::WedgeCurve;
 
 /// A point of a sprag: how far from the axis of the clutch, m, and by which azimuth ahead of C_e, rad.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     pub radius: f64,
     pub ahead: f64,
@@ -70,7 +70,7 @@ impl Point {
 }
 
 /// A sprag in a cage at a speed: at first contact, or tilted open from it.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Held {
     pub oa: f64,
     pub ob: f64,
@@ -137,7 +137,7 @@ impl Held {
     }
 
     /// The same on the stop at P, `clearance` farther out than at first contact.
-    fn on_stop(&self, clearance: f64, gap: f64) -> Self {
+    pub fn on_stop(&self, clearance: f64, gap: f64) -> Self {
         let still = clearance == 0.0 && gap == 0.0;
         let to = self.oc_e - gap;
         let tilt = if still { 0.0 } else { self.p.tilt_to(self.p.radius + clearance, self.oc_e, to) };
@@ -173,8 +173,20 @@ impl Held {
     }
 
     /// What the centrifugal force turns open about P, N m.
-    fn lifting_nm(&self) -> f64 {
+    pub fn lifting_nm(&self) -> f64 {
         -self.centrifugal_n() * self.p.radius * self.pi().sin()
+    }
+
+    /// What opens the sprag about P for each rad/s^2 by which the cage is accelerated, N m: the inertia force at G and the couple of
+    /// `inertia_kg_m2`, I_g.
+    pub fn slewing_kg_m2(&self, inertia_kg_m2: f64) -> f64 {
+        let (oc_g, op) = (self.g.radius, self.p.radius);
+        self.mass_kg * oc_g * (oc_g - op * self.pi().cos()) + inertia_kg_m2
+    }
+
+    /// The same outward at P, N.
+    pub fn outward_of_slewing_kg_m(&self) -> f64 {
+        -self.mass_kg * self.g.radius * self.pi().sin()
     }
 
     /// What the spring turns closed about P, N m.

@@ -6,6 +6,7 @@ use super::driver::Driver;
 use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER, probe_of};
 use super::model::{Forces, Grip, Mode, N_STATE, Place};
 use super::run::Stop;
+use super::start::settled;
 use super::zeno::{Accumulation, bound, resolution_s};
 use crate::ode::adaptive::Size;
 use crate::wedge::WedgePoint;
@@ -33,6 +34,10 @@ where
         let model = self.model;
         let mode = self.run.mode;
         let p = self.hold(&mut y);
+        if mode.place == Place::Carried {
+            self.catch_up(t, &mut y, &p);
+            return true;
+        }
         let forces = || model.forces_at(&mode, t, &y, &p, &model.rates(&mode, &p, &y));
         let known = |grip: Grip, here: bool, slips: &dyn Fn() -> f64| match grip {
             Grip::Stick if here => Known::Released(slips().signum()),
@@ -48,7 +53,7 @@ where
                 Place::Arc(0) if self.settings.rolling => Place::Tension,
                 Place::Arc(0) => Place::Open,
                 Place::Arc(k) => Place::Arc(k - 1),
-                Place::Open | Place::Tension => {
+                Place::Open | Place::Tension | Place::Carried => {
                     self.stop(Stop::FellAway);
                     return false;
                 }
@@ -59,10 +64,14 @@ where
                     self.stop(Stop::CurveEnd);
                     return false;
                 }
-                Place::Open | Place::Tension => Place::Arc(0),
+                Place::Open | Place::Tension | Place::Carried => Place::Arc(0),
             },
             _ => mode.place,
         };
+        let touches = matches!((which, mode.place), (LOWER, Place::Arc(0)) | (UPPER, Place::Open));
+        if touches && !self.settings.rolling && self.take_along(t, &mut y, &p) {
+            return true;
+        }
         let next = if which == LOWER || which == UPPER {
             self.pass(&mode, &p, place, t, &mut y, inner, outer)
         } else {
@@ -70,6 +79,66 @@ where
         };
         self.run.state = y;
         self.enter(next);
+        true
+    }
+
+    /// Carried sprags where the outer race comes to run as fast as they, or they come back to one that is faster: it takes them into the
+    /// wedge; off it they go on beside it.
+    fn catch_up(&mut self, t: f64, y: &mut [f64; N], p: &WedgePoint) {
+        let (model, mode) = (self.model, self.run.mode);
+        let rates = model.rates(&mode, p, y);
+        let ride = model.carried.map(|carried| {
+            let load_nm = model.race_loads_nm(t, y, &rates)[0];
+            model.ride(&carried, t, p, &rates, load_nm).0
+        });
+        let Some(ride) = ride.filter(|ride| ride.n_be > 0.0) else {
+            let outer = match mode.outer {
+                Grip::Slip(s) => Grip::Slip(-s),
+                Grip::Stick => Grip::Slip(-1.0),
+            };
+            self.run.state = *y;
+            return self.enter(Next::of_mode(Mode { outer, ..mode }));
+        };
+        let v_b = model.slip_velocities(p, &rates).1;
+        let outer = if mode.outer == Grip::Slip(1.0) { moving(v_b.max(0.0)) } else { Known::Still };
+        let from = y[0];
+        let place = if ride.tilt_rad > 0.0 {
+            y[0] -= ride.tilt_rad;
+            Place::Open
+        } else {
+            // Pressed in as its spring does between races that stand still against one another.
+            let pressed = settled(model, 0.0);
+            y[0] = pressed.map_or(from, |(state, _)| state[0]);
+            pressed.map_or(Place::Arc(0), |(_, place)| place)
+        };
+        if let Some(audit) = &mut self.audit {
+            audit.set(model, y, from);
+        }
+        let next = self.chosen(t, y, model.point(place, y[0]), place, Known::Still, outer);
+        self.run.state = *y;
+        self.enter(next);
+    }
+
+    /// A driven cage takes sprags along that touch, or cease to, behind the inner race. False: there is none, or they are ahead.
+    fn take_along(&mut self, t: f64, y: &mut [f64; N], p: &WedgePoint) -> bool {
+        let model = self.model;
+        if model.carried.is_none() {
+            return false;
+        }
+        let before = model.rates(&self.run.mode, p, y);
+        let along = model.taken_along_rad_s(p, before);
+        if before[3] >= along || before[1] > before[2] {
+            return false;
+        }
+        let after = [0.0, along, along, before[3]];
+        if let Some(audit) = &mut self.audit {
+            audit.taken_along(model, y, p, [&before, &after]);
+        }
+        y[0] = model.curve.first_contact_rad();
+        y[4..8].copy_from_slice(&after);
+        (self.run.t_s, self.run.state) = (t, *y);
+        let mode = Mode { place: Place::Carried, inner: Grip::Stick, outer: Grip::Slip(-1.0) };
+        self.enter(Next::of_mode(mode));
         true
     }
 
@@ -150,6 +219,10 @@ where
             self.close(&limit, t, y);
             return true;
         }
+        if mode.place == Place::Carried {
+            self.catch_up(t, &mut y, &p);
+            return true;
+        }
         let again = |grip: Grip, negative: bool| match grip {
             Grip::Slip(s) if !negative => Known::Slips(s),
             _ => Known::Still,
@@ -212,6 +285,9 @@ where
                 place = lower;
             }
         }
+        if place == Place::Carried {
+            place = Place::Arc(0);
+        }
         let held = Mode { place, inner, outer };
         let p = model.point(place, y[0]);
         let rates = model.rates(&held, &p, &y);
@@ -244,7 +320,7 @@ where
         self.note_slip(&mode, p.n_bi);
         self.renew(mode);
         if let Some((p, f)) = next.forces {
-            let probe = probe_of(self.model, &mode, &self.run.state, &p, &f, !self.settings.rolling);
+            let probe = probe_of(self.model, &mode, t, &self.run.state, &p, &f, !self.settings.rolling);
             (self.slope, self.probed) =
                 (self.model.slope_of(&mode, t, &self.run.state, &rates, &f), Some(probe));
         }

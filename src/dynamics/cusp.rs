@@ -17,7 +17,7 @@ pub(super) fn cusp(place: Place) -> Option<usize> {
     match place {
         Place::Arc(0) => Some(LOWER),
         Place::Tension => Some(UPPER),
-        Place::Arc(_) | Place::Open => None,
+        Place::Arc(_) | Place::Open | Place::Carried => None,
     }
 }
 

@@ -73,7 +73,7 @@ pub(super) const KINDS: usize = 8;
 fn kind(mode: &Mode) -> usize {
     usize::from(mode.inner == Grip::Stick)
         + 2 * usize::from(mode.outer == Grip::Stick)
-        + 4 * usize::from(mode.place == Place::Open)
+        + 4 * usize::from(matches!(mode.place, Place::Open | Place::Carried))
 }
 
 /// The right-hand side in one mode.
@@ -492,6 +492,9 @@ where
                     record.distance_m += (y[i] - before[i]).abs();
                 }
             }
+        }
+        if mode.place == Place::Carried && self.run.engaged.is_some() {
+            self.run.carried_m += (y[9] - before[9]).abs();
         }
         self.run.t_s = t;
         self.run.state = y;

@@ -29,7 +29,7 @@ pub struct EnergyBalance {
     pub friction_outer_j: f64,
     /// Viscous damping between the races, in the shafts of a drivetrain and by its drags.
     pub race_damping_j: f64,
-    /// Hunt-Crossley damping of the contacts.
+    /// Hunt-Crossley damping of the contacts, and what sprags of a driven cage gain or lose that it stops, or that leave it.
     pub contact_damping_j: f64,
     /// Torque on the inner race: preload, step, history or flange; that on the drivetrain of its side.
     pub torque_inner_j: f64,
@@ -67,6 +67,8 @@ impl EnergyBalance {
 }
 
 const WORKS: usize = 7;
+/// Index of the damping of the contacts among them.
+const CONTACT: usize = 3;
 
 impl Model {
     /// Powers in the order of the fields of [`EnergyBalance`], W.
@@ -214,6 +216,28 @@ impl Audit {
             let [before, after] = [before, after].map(|(p, rates)| model.energy_without_wedge(p, rates, y));
             self.works[4 + race] += after - before;
         }
+    }
+
+    /// Count what carried sprags gain or lose that leave their cage at `y`, their alpha so far at `from` (rad).
+    pub(super) fn set<const N: usize>(&mut self, model: &Model, y: &[f64; N], from: f64) {
+        let at = |alpha: f64| {
+            let mut y = *y;
+            y[0] = alpha;
+            model.energy_without_wedge(&model.point(Place::Open, alpha), &[0.0; 4], &y)
+        };
+        self.works[CONTACT] += at(y[0]) - at(from) + model.wedge_energy_j(from, y[0]);
+    }
+
+    /// Count what is lost where a cage takes sprags along, by the rates before and after.
+    pub(super) fn taken_along<const N: usize>(
+        &mut self,
+        model: &Model,
+        y: &[f64; N],
+        p: &WedgePoint,
+        rates: [&[f64; 4]; 2],
+    ) {
+        let [before, after] = rates.map(|rates| model.energy_without_wedge(p, rates, y));
+        self.works[CONTACT] += after - before;
     }
 
     /// Count the works of an accepted step, by quadrature over its dense output, whose evaluations are none of the run's.

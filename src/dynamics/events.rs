@@ -9,7 +9,7 @@ pub(super) const EVENTS: usize = 4;
 pub(super) const LOWER: usize = 0;
 /// Index: alpha rises to the upper end of its place.
 pub(super) const UPPER: usize = 1;
-/// Index: contact A changes its grip.
+/// Index: contact A changes its grip; carried sprags: the spring brings B back to an outer race that runs ahead.
 pub(super) const INNER: usize = 2;
 /// Index: contact B changes its grip.
 pub(super) const OUTER: usize = 3;
@@ -65,6 +65,7 @@ fn within(model: &Model, place: Place, alpha: f64) -> (f64, f64) {
     match place {
         Place::Open => (alpha - touch + OPEN_REACH_RAD, touch - alpha),
         Place::Tension => (1.0, touch - alpha),
+        Place::Carried => (1.0, 1.0),
         Place::Arc(k) => {
             let from = if k == 0 { touch - LEAVE_RAD } else { model.curve.arc_end_rad(k - 1) };
             (alpha - from, model.curve.arc_end_rad(k) - alpha)
@@ -91,6 +92,7 @@ fn carried(n: f64, loaded: f64) -> f64 {
 pub(super) fn probe_of<const N: usize>(
     model: &Model,
     mode: &Mode,
+    t: f64,
     y: &[f64; N],
     p: &WedgePoint,
     f: &Forces,
@@ -100,6 +102,7 @@ pub(super) fn probe_of<const N: usize>(
     let mu = model.friction.static_;
     let inner = match mode.inner {
         _ if mode.place == Place::Open || !grips => 1.0,
+        _ if mode.place == Place::Carried => model.off_nm(mode, t, y, p),
         Grip::Slip(s) => s * f.v_a,
         Grip::Stick => mu * f.n_bi - f.t_bi.abs(),
     };
@@ -132,7 +135,7 @@ pub(super) fn radial_m_s2(mode: &Mode, p: &WedgePoint, f: &Forces) -> f64 {
 pub(super) fn probe<const N: usize>(model: &Model, mode: &Mode, t: f64, y: &[f64; N], grips: bool) -> Probe {
     let p = model.point(mode.place, y[0]);
     let f = model.forces_at(mode, t, y, &p, &model.rates(mode, &p, y));
-    probe_of(model, mode, y, &p, &f, grips)
+    probe_of(model, mode, t, y, &p, &f, grips)
 }
 
 /// Event function `i` of [`Probe::events`] alone: the ends of a place need no forces, a slip velocity no friction.

@@ -75,6 +75,7 @@ impl Memory {
             Place::Open => true,
             Place::Arc(k) => k < model.curve.arc_count(),
             Place::Tension => false,
+            Place::Carried => model.carried.is_some(),
         };
         let positive = |h: &f64| h.is_finite() && *h > 0.0;
         place

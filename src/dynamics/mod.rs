@@ -10,6 +10,7 @@
 
 mod cage;
 mod cage_swing;
+mod carried;
 mod change;
 mod choose;
 mod crossing;
@@ -43,6 +44,7 @@ mod zeno;
 
 pub use cage::{CageFacts, overrun_in_cage, pivot_moments};
 pub use cage_swing::{swing_in_cage, swing_in_cage_with_friction};
+pub use carried::Carried;
 pub use drive::{Drive, FlangeDrive, Loads, Ramp};
 pub use energy::EnergyBalance;
 pub use many::{

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
+use super::carried::Carried;
 use super::drive::{Drive, Loads};
 use crate::clutch::Clutch;
 use crate::friction::{FilmFriction, Stribeck};
@@ -31,6 +32,8 @@ pub enum Place {
     Arc(usize),
     /// Pure-rolling run only: below first contact, held by tension.
     Tension,
+    /// A driven cage carries the sprag with the inner race, from which A neither slips nor lifts off.
+    Carried,
 }
 
 /// Mode of motion: within one, everything is smooth.
@@ -55,6 +58,8 @@ pub struct Model {
     pub film: Option<FilmFriction>,
     /// Whether B rolls without slip whatever that takes (Vernay's assumption).
     pub outer_holds: bool,
+    /// How a driven cage carries the sprags in overrun; `None`: they ride with the outer race.
+    pub carried: Option<Carried>,
     /// Loads.
     pub loads: Loads,
     /// What acts over time beside them.
@@ -157,6 +162,7 @@ impl Model {
             friction: Stribeck::of(&clutch.friction),
             film: None,
             outer_holds: clutch.friction.outer_holds,
+            carried: None,
             loads,
             drive: Drive::default(),
             alpha_max_rad,
@@ -183,17 +189,20 @@ impl Model {
     pub fn point(&self, place: Place, alpha: f64) -> WedgePoint {
         match place {
             Place::Arc(k) => self.curve.in_arc(k, alpha),
-            Place::Open => self.curve.open(alpha),
+            Place::Open | Place::Carried => self.curve.open(alpha),
             Place::Tension => self.curve.mirrored(alpha),
         }
     }
 
     /// Rates with the rolling constraints of `mode` put in exactly: (alpha', phi', theta_bi', theta_be').
     /// The light sprag follows the heavy races: both stick, alpha' = (theta_be' - theta_bi')/(rho_i + rho_e),
-    /// phi' = theta_bi' + rho_i alpha'; one sticks, phi' follows that race.
+    /// phi' = theta_bi' + rho_i alpha'; one sticks, phi' follows that race. A cage that carries the sprags: alpha' = 0, phi' = theta_bi'.
     #[inline]
     pub fn rates<const N: usize>(&self, mode: &Mode, p: &WedgePoint, y: &[f64; N]) -> [f64; 4] {
         let [mut da, mut dp, di, de] = [y[4], y[5], y[6], y[7]];
+        if mode.place == Place::Carried {
+            return [0.0, di, di, de];
+        }
         let inner_sticks = mode.inner == Grip::Stick && mode.place != Place::Open;
         match (inner_sticks, mode.outer == Grip::Stick) {
             (true, true) => {
@@ -303,14 +312,12 @@ impl Model {
         p: &WedgePoint,
         rates: &[f64; 4],
     ) -> Forces {
-        let [_, _, di, de] = *rates;
         let n = self.count;
-        let spin = self.mean_speed(t).1;
+        let [f_i, f_e] = self.race_loads_nm(t, y, rates);
+        if mode.place == Place::Carried {
+            return self.carried_forces(mode, t, p, rates, [f_i, f_e]);
+        }
         let loose = self.loose::<RADIAL, N>(mode, t, y, p, rates);
-        let drag = self.damping_nm_s_per_rad * (di - de);
-        let [torque_i, torque_e] = self.torques_on_nm(t, y);
-        let f_i = torque_i - drag - self.inner_inertia_kg_m2 * spin;
-        let f_e = torque_e + drag - self.loads.abutment_nm_per_rad * y[3] - self.outer_inertia_kg_m2 * spin;
         let (mut free_i, mut free_e) = (f_i / self.inner_inertia_kg_m2, f_e / self.outer_inertia_kg_m2);
         let mut race_i = n * p.oa / self.inner_inertia_kg_m2;
         let mut race_e = -n * p.ob / self.outer_inertia_kg_m2;
@@ -335,6 +342,19 @@ impl Model {
             }
         }
         loose.forces([t_bi, t_be], n_be, [free_i + race_i * t_bi, free_e + race_e * t_be])
+    }
+
+    /// What acts on inner and outer race beside the sprags, N m.
+    #[inline(always)]
+    pub(super) fn race_loads_nm<const N: usize>(&self, t: f64, y: &[f64; N], rates: &[f64; 4]) -> [f64; 2] {
+        let [_, _, di, de] = *rates;
+        let spin = self.mean_speed(t).1;
+        let drag = self.damping_nm_s_per_rad * (di - de);
+        let [torque_i, torque_e] = self.torques_on_nm(t, y);
+        [
+            torque_i - drag - self.inner_inertia_kg_m2 * spin,
+            torque_e + drag - self.loads.abutment_nm_per_rad * y[3] - self.outer_inertia_kg_m2 * spin,
+        ]
     }
 
     /// One sprag of the `count` by itself: what it does without T_bi and T_be, and what these do to it.

@@ -303,7 +303,7 @@ impl Search<'_> {
         }
         let curve = &self.model.curve;
         to.mode.place = match from.mode.place {
-            Place::Open => Place::Open,
+            place @ (Place::Open | Place::Carried) => place,
             _ if self.shooting.period.rolling && to.state[0] < curve.first_contact_rad() => Place::Tension,
             _ => Place::Arc(curve.arc_at(to.state[0])),
         };
@@ -343,6 +343,9 @@ impl Search<'_> {
 
 /// What a period map acts on where it begins in `mode`: places in the state.
 fn free(mode: &Mode) -> Vec<usize> {
+    if mode.place == Place::Carried {
+        return vec![3, 6, 7];
+    }
     let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
     match (inner, mode.outer == Grip::Stick) {
         (true, true) => vec![0, 3, 6, 7],
@@ -353,8 +356,8 @@ fn free(mode: &Mode) -> Vec<usize> {
 
 /// Whether both are the same but for the arc.
 fn same_kind(a: &Mode, b: &Mode) -> bool {
-    let open = |mode: &Mode| mode.place == Place::Open;
-    open(a) == open(b) && (open(a) || a.inner == b.inner) && a.outer == b.outer
+    let apart = |mode: &Mode| matches!(mode.place, Place::Open | Place::Carried).then_some(mode.place);
+    apart(a) == apart(b) && (apart(a).is_some() || a.inner == b.inner) && a.outer == b.outer
 }
 
 /// Half of what each number of the state varies by; that of a number that stays, by what the others do.

@@ -100,7 +100,7 @@ impl<const N: usize> RightHandSide<N> for Observed<'_> {
         let p = model.point(mode.place, y[0]);
         let rates = model.rates(mode, &p, y);
         let f = model.forces_with::<true, N>(mode, t, y, &p, &rates);
-        probes[probe] = probe_of(model, mode, y, &p, &f, self.grips);
+        probes[probe] = probe_of(model, mode, t, y, &p, &f, self.grips);
         *count = probe + 1;
         model.slope_of(mode, t, y, &rates, &f).ok_or(())
     }

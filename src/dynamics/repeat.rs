@@ -70,8 +70,8 @@ pub struct Jump {
     pub events: u64,
 }
 
-/// Slip at A and B (time, path, net), time open, and what the energy balance counts.
-const ADDED: usize = 15;
+/// Slip at A and B (time, path, net), time open, path of a carried B, and what the energy balance counts.
+const ADDED: usize = 16;
 
 /// What a run has come to at the end of a whole period.
 #[derive(Debug, Clone, Copy)]
@@ -369,11 +369,12 @@ where
         more(&mut driver.run.inner, &added[..3]);
         more(&mut driver.run.outer, &added[3..6]);
         driver.run.open_s += n * added[6];
+        driver.run.carried_m += n * added[7];
         driver.open_since = driver.open_since.map(|since| since + span_s);
         driver.run.events += periods * events;
         driver.passed_events += periods * events;
         if let Some(audit) = &mut driver.audit {
-            audit.add(n, &added[7..]);
+            audit.add(n, &added[8..]);
         }
         if let Some(watch) = &mut driver.slip_watch {
             watch.repeat(n, span_s);
@@ -448,7 +449,7 @@ where
     let added = (0..ADDED - 1).map(|i| {
         let size = match i {
             0 | 3 | 6 => driver.settings.duration_s,
-            1 | 2 | 4 | 5 => radius_m,
+            1 | 2 | 4 | 5 | 7 => radius_m,
             // Both grow with the periods.
             _ => through * (1.0 + periods / driver.run.t_s * period_s),
         };
@@ -475,9 +476,9 @@ impl<const N: usize> Section<N> {
         let mut added = [0.0; ADDED];
         added[..3].copy_from_slice(&slip(&run.inner));
         added[3..6].copy_from_slice(&slip(&run.outer));
-        added[6] = open;
+        (added[6], added[7]) = (open, run.carried_m);
         if let Some(audit) = &driver.audit {
-            added[7..].copy_from_slice(&audit.sums());
+            added[8..].copy_from_slice(&audit.sums());
         }
         Self { t_s: run.t_s, state: run.state, mode: run.mode, events: run.events, added }
     }

@@ -79,7 +79,7 @@ fn with_peaks(model: &Model, state: State, place: Place, peaks: Peaks) -> Rollin
 
 fn both_roll(place: Place) -> Mode {
     Mode {
-        place: if place == Place::Open { Place::Arc(0) } else { place },
+        place: if matches!(place, Place::Open | Place::Carried) { Place::Arc(0) } else { place },
         inner: Grip::Stick,
         outer: Grip::Stick,
     }

@@ -270,6 +270,8 @@ pub struct Run<const N: usize = N_STATE> {
     pub inner: SlipRecord,
     /// Slip at B.
     pub outer: SlipRecord,
+    /// Path that B slid since the clutch engaged while a driven cage carried the sprags, m: the clutch overran.
+    pub carried_m: f64,
     /// Total time without contact at A, s.
     pub open_s: f64,
     /// Longest stretch without contact at A, s.
@@ -360,6 +362,7 @@ impl<const N: usize> Run<N> {
             mode,
             inner: SlipRecord::default(),
             outer: SlipRecord::default(),
+            carried_m: 0.0,
             open_s: 0.0,
             longest_open_s: 0.0,
             peaks: Peaks::NONE,
@@ -384,9 +387,10 @@ impl<const N: usize> Run<N> {
         }
     }
 
-    /// Whether a contact began to slip under `loaded_n` (N) or more, or A has slipped by more than `path_m` since it engaged.
+    /// Whether a contact began to slip under `loaded_n` (N) or more, or the clutch has slipped or overrun by more than `path_m` since it
+    /// engaged.
     pub fn has_slipped(&self, loaded_n: f64, path_m: f64) -> bool {
-        let path = self.engaged.map_or(0.0, |e| self.inner.since(&e.inner).distance_m);
+        let path = self.engaged.map_or(0.0, |e| self.inner.since(&e.inner).distance_m) + self.carried_m;
         path > path_m || self.slip_begins_n >= loaded_n.max(f64::MIN_POSITIVE)
     }
 

@@ -72,6 +72,7 @@ pub(super) fn bound(curve: &WedgeCurve, place: Place, rolling: bool, alpha: f64)
     let from = |k: usize| if k == 0 { curve.first_contact_rad() } else { curve.arc_end_rad(k - 1) };
     match place {
         Place::Open | Place::Tension => (from(0), place, Place::Arc(0)),
+        Place::Carried => (from(0), Place::Open, Place::Arc(0)),
         Place::Arc(k) if k + 1 < curve.arc_count() && curve.arc_end_rad(k) - alpha < alpha - from(k) => {
             (curve.arc_end_rad(k), Place::Arc(k), Place::Arc(k + 1))
         }

@@ -236,10 +236,6 @@ impl Element {
             drivetrain: Vec::new(),
             overrides: Vec::new(),
         };
-        // Whatever comes of the torques, it may overrun.
-        if clutch.cage.is_some() {
-            return Err(NoElement::NoStart(NoScenario::DrivenCage));
-        }
         let prepared = prepare(&scene).map_err(NoElement::NoStart)?;
         let torque_nm = if b.overrun_rad_s > 0.0 { 0.0 } else { b.torque_nm };
         let outer_nm = if b.abutment_nm_per_rad > 0.0 { 0.0 } else { torque_nm };

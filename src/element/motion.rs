@@ -78,7 +78,7 @@ impl Element {
             acceleration_rad_s2: f.acceleration[2 + i],
             torque_nm: torques_nm[i],
         };
-        let open = mode.place == Place::Open;
+        let open = matches!(mode.place, Place::Open | Place::Carried);
         let slips = |grip: Grip, apart: bool| match grip {
             Grip::Slip(sign) if !apart => sign as i8,
             _ => 0,

@@ -4,10 +4,9 @@
 //! Equations: none of its own; azimuths at first contact are those of `profile`. The doc comments are the schema's
 //! descriptions.
 
-use super::design_file::DesignFile;
 use super::findings::Findings;
 use super::geometry::mm;
-use crate::clutch::{Cage, Races, Scenario, Sprags};
+use crate::clutch::{Cage, Races, Sprags};
 use crate::design::m;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -97,26 +96,4 @@ pub(super) fn cage(file: &CageFile, races: &Races, sprags: &Sprags, out: &mut Fi
         return None;
     }
     Some(Cage { pivot_m, clearance_m: 1e-6 * file.clearance_um })
-}
-
-/// Refuse scenes that are or begin in overrun, or whose torque turns round: their equations have sprags that ride with the outer race.
-pub(super) fn scenes(file: &DesignFile, scenarios: &[Scenario], out: &mut Findings) {
-    if file.cage.is_none() {
-        return;
-    }
-    let overruns = |s: &Scenario| s.lets_go() || s.kind.overrun_rad_s().is_some();
-    for (i, scenario) in scenarios.iter().enumerate().filter(|(_, s)| overruns(s)) {
-        let [kind, overrun, torque] =
-            ["kind", "overrun_rpm", "torque_history_csv"].map(|key| format!("scenarios[{i}].{key}"));
-        let key = [&overrun, &torque].into_iter().find(|key| out.has(key));
-        let keys: Vec<&str> = key.into_iter().chain([&kind]).map(String::as_str).chain(["cage"]).collect();
-        out.refuse(
-            &keys,
-            "with [cage] only scenes that begin under load and stay engaged: the equations of motion let sprags in overrun ride with the outer race".to_owned(),
-            format!(
-                "remove scenario {:?} or [cage]; `check` and, with [lubrication], `overrun` look at steady overrun with the cage",
-                scenario.name
-            ),
-        );
-    }
 }

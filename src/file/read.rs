@@ -18,7 +18,7 @@ use super::open;
 use super::scenarios::Load;
 use super::set::with_setting;
 use super::tolerances_file::TolerancesFile;
-use super::{cage_file, check, life_file, scenarios, shape, sharing_file, task};
+use super::{check, life_file, scenarios, shape, sharing_file, task};
 use crate::design::{Design, Limits, nearest};
 
 const WHAT: &str = "a text file (UTF-8, TOML) that holds a clutch design";
@@ -243,7 +243,6 @@ fn assembled(
     check::tolerances(&file, clutch.as_ref(), out);
     check::gaps(&file.limits, &file.races, out);
     let scenarios = scenarios::scenarios(&file, table, clutch.as_ref(), load, out);
-    cage_file::scenes(&file, scenarios.as_deref().unwrap_or_default(), out);
     let service = file.life.as_ref().map(|life| life_file::service(&file, life, load, out));
     let sharing = file.sharing.as_ref().map(|s| sharing_file::si(&file, s, clutch.as_ref(), out));
     let check_scenarios = task::check_scenarios(&file, out);

@@ -7,15 +7,13 @@
 //! then B slides, the centrifugal force is that of the inner race's speed, and lifts them off the outer race.
 
 use super::load::LoadState;
-use crate::clutch::{Clutch, Sprags};
 use crate::design::Design;
 use crate::dynamics::{Overrun, Swing, pivot_moments};
 use crate::follow::Follow;
 use crate::kinematics::levers;
 use crate::numeric::root;
-use crate::scenario::{Lubricated, sliding};
+use crate::scenario::{Lubricated, sliding, touch};
 use crate::wedge::{FIRST_CONTACT_N, NoCurve, WedgeCurve};
-use std::borrow::Cow;
 
 /// One steady overrun.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +61,7 @@ pub fn overrun_curve(
     follow: &Follow,
 ) -> Result<OverrunCurve, NoCurve> {
     // The first arc is all that overrun feels.
-    let build = |speed: f64| touch(design, state, speed);
+    let build = |speed: f64| touch(&design.clutch, &state.profile, speed);
     let point = |curve: &WedgeCurve, ahead: f64| point(design, state, curve, ahead);
     let rest = build(0.0)?;
     let speeds = (0..SPEEDS).map(|i| up_to_rad_s * i as f64 / (SPEEDS - 1) as f64);
@@ -71,19 +69,6 @@ pub fn overrun_curve(
     let inner_race = speeds.clone().map(|speed| point(&rest, speed)).collect();
     let outer_race = speeds.map_while(|speed| build(speed).ok().map(|curve| point(&curve, -speed))).collect();
     Ok(OverrunCurve { outer_race, inner_race, gamma_rad: state.curve.statics().gamma0_rad() })
-}
-
-/// A curve as far as overrun feels it, the first contact at that speed of the outer race; in a driven cage without the sprags' weight,
-/// whose force is that of another speed.
-fn touch(design: &Design, state: &LoadState, outer_rad_s: f64) -> Result<WedgeCurve, NoCurve> {
-    let clutch = match design.clutch.cage {
-        Some(_) if outer_rad_s != 0.0 => {
-            let sprags = Sprags { mass_kg: 0.0, ..design.clutch.sprags.clone() };
-            Cow::Owned(Clutch { sprags, ..design.clutch.clone() })
-        }
-        _ => Cow::Borrowed(&design.clutch),
-    };
-    WedgeCurve::build_reaching(&clutch, &state.profile, outer_rad_s, Some(0.0))
 }
 
 /// The steady overrun in which the outer race runs at `outer_rad_s` and the inner one is ahead of it by `ahead_rad_s`: behind it, as
@@ -97,7 +82,7 @@ pub fn overrun_at(
     outer_rad_s: f64,
     ahead_rad_s: f64,
 ) -> Result<OverrunPoint, NoCurve> {
-    let curve = touch(design, state, outer_rad_s)?;
+    let curve = touch(&design.clutch, &state.profile, outer_rad_s)?;
     Ok(point(design, state, &curve, ahead_rad_s))
 }
 

@@ -5,8 +5,9 @@ use super::demand::demand;
 use super::error::Scales;
 use super::prepare::Prepared;
 use super::simulate::{Settings, hertz_at, hertz_peak};
+use super::sliding::swing_about;
 use crate::clutch::{Scenario, ScenarioKind, Start};
-use crate::dynamics::{Neglected, Peaks, SlipRecord, Stop, Swing, swing_on_film};
+use crate::dynamics::{Neglected, Peaks, SlipRecord, Stop, Swing};
 use crate::wedge::StaticPoint;
 
 /// Static and overrunning scenarios: equilibrium, no integration.
@@ -19,7 +20,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         (None, None) => (0.0, 0.0, 0.0, 0.0),
     };
     let verdict = match prepared.overrun {
-        Some(o) if o.normal_inner_n > 0.0 => Verdict::SlipsOverrunning,
+        Some(o) if o.sliding_n > 0.0 => Verdict::SlipsOverrunning,
         Some(_) => Verdict::Disengages,
         None if demand.is_some_and(|d| d.slip_margin >= Some(0.0)) => Verdict::Sticks,
         // A sprag whose demand exceeds mu_s is squeezed out backwards under torque.
@@ -76,14 +77,8 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
 pub fn overrun_swing(scenario: &Scenario, prepared: &Prepared) -> Option<Swing> {
     let ScenarioKind::Overrun { overrun_rad_s, .. } = scenario.kind else { return None };
     let (model, steady) = (&prepared.model, prepared.overrun.as_ref()?);
-    swing_on_film(
-        &scenario.clutch,
-        &model.curve,
-        model.alpha_max_rad,
-        steady,
-        overrun_rad_s.abs(),
-        model.film.as_ref(),
-    )
+    let film = model.film.as_ref();
+    swing_about(steady, &scenario.clutch, &model.curve, model.alpha_max_rad, overrun_rad_s, film)
 }
 
 /// To what part every figure of an equilibrium is right: what of the torque is left over, what the windup's interpolation

@@ -34,4 +34,4 @@ pub use published::{published_steps, simulate_published};
 pub use resonance::{ResonanceCell, resonance};
 pub use roll_over::{Beyond, Fate, beyond};
 pub use simulate::{Settings, TOLERANCES, Terms, simulate, simulate_prepared};
-pub use sliding::{Lubricated, Sliding, SqueezedOut, sliding, squeezed_out};
+pub use sliding::{Lubricated, Sliding, SqueezedOut, sliding, squeezed_out, touch};

@@ -1,10 +1,10 @@
 //! From a scenario of the design to a model with an initial state.
 
-use super::sliding::sliding;
+use super::sliding::{sliding, steady_under, touch};
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{
-    Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, Train, alpha_max_rad, overrun,
-    preloaded, settled, settled_end_torque_nm, settled_point,
+    Carried, Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, SlidingContact, State, Train,
+    alpha_max_rad, preloaded, settled, settled_end_torque_nm, settled_point,
 };
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
@@ -30,12 +30,12 @@ pub enum NoScenario {
         /// Name of the curve's end.
         reason: &'static str,
     },
-    /// The equations of motion have sprags that ride with the outer race.
+    /// A driven cage where the sprags ride with the outer race.
     #[error(
-        "[cage] has the sprags carried by the inner race, and the equations of motion know overrun only with sprags that ride \
-         with the outer race: `check` and `overrun` look at steady overrun with it; without [cage] the sprags ride with the outer race"
+        "[cage] has the sprags carried by the inner race; {0} knows overrun only with sprags that ride with the outer race: \
+         without [cage] they do"
     )]
-    DrivenCage,
+    DrivenCage(&'static str),
     /// The published scheme integrates the clutch alone, and the scene has a drivetrain.
     #[error(
         "the published scheme moves no drivetrain: take the event method, or give the scenario drivetrain = \
@@ -83,7 +83,9 @@ impl FreeRun {
     fn steady(&self, model: &Model, law: &Stribeck) -> Overrun {
         let curve = self.curve.as_ref().unwrap_or(&model.curve);
         let mu = friction_under(&self.clutch, law, self.speed_rad_s);
-        let free = overrun(&self.clutch, curve, model.alpha_max_rad, mu);
+        let free = steady_under(&self.clutch, curve, model.alpha_max_rad, self.speed_rad_s, |_| {
+            SlidingContact::dry(mu)
+        });
         let moved = model.curve.first_contact_rad() - curve.first_contact_rad();
         Overrun { alpha_rad: free.alpha_rad + moved, ..free }
     }
@@ -93,14 +95,14 @@ impl Prepared {
     /// Start under another friction law: the same but for an overrun.
     pub(super) fn start_under(&self, law: &Stribeck) -> (State, Mode) {
         self.free_run.as_ref().map_or((self.state, self.mode), |f| {
-            overrunning(&f.steady(&self.model, law), &self.model.curve, f.speed_rad_s)
+            overrunning(&f.steady(&self.model, law), &self.model, f.speed_rad_s)
         })
     }
 
     /// Start in overrun of the sprags of another `model` of the scene; `None` where it does not begin so.
     pub fn overrun_of(&self, model: &Model) -> Option<(State, Mode)> {
         let free = self.free_run.as_ref()?;
-        Some(overrunning(&free.steady(model, &model.friction), &model.curve, free.speed_rad_s))
+        Some(overrunning(&free.steady(model, &model.friction), model, free.speed_rad_s))
     }
 
     /// The equilibrium at the start of a static scenario, exact; `None` without a load.
@@ -171,9 +173,6 @@ fn at_start(
     known: Option<AtRest>,
 ) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
-    if clutch.cage.is_some() && scenario.kind.overrun_rad_s().is_some() {
-        return Err(NoScenario::DrivenCage);
-    }
     let profile = clutch.profile().map_err(NoScenario::Profile)?;
     let known = known.filter(|k| k.clutch == clutch);
     let build = |speed: f64| {
@@ -191,6 +190,12 @@ fn at_start(
     let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
     let train = Train::new(&scenario.drivetrain).filter(|_| !scenario.drivetrain.is_empty());
     let train = train.map(|t| t.in_frame(scenario.speed_history.clone()));
+    // First contact in overrun where that is not the curve's, and how a driven cage carries the sprags from there.
+    let in_cage = |curve: &WedgeCurve| {
+        let Some(cage) = &clutch.cage else { return Ok((None, None)) };
+        let touch = touch(clutch, &profile, curve.speed_rad_s()).map_err(NoScenario::Curve)?;
+        Ok((Some(Carried::new(clutch, cage, &touch)), Some(touch)))
+    };
     let start = |model: &mut Model, torque_nm: f64| {
         let (torque_nm, turn) = model.carries(torque_nm);
         let (found, end_torque_nm) = match scenario.start {
@@ -226,7 +231,9 @@ fn at_start(
                 omega_rad_s: std::f64::consts::TAU * frequency_hz,
                 abutment_nm_per_rad: abutment_stiffness_nm_per_rad,
             };
+            let (carried, _) = in_cage(&curve)?;
             let mut model = Model::new(clutch, curve, loads, alpha_max, 0.0).joined(train);
+            model.carried = carried;
             let (state, place) = start(&mut model, preload_nm)?;
             Ok(finish(model, state, stuck(place), duration_s, Some(1.0 / frequency_hz), None))
         }
@@ -242,10 +249,12 @@ fn at_start(
                 abutment_nm_per_rad: stop_stiffness_nm_per_rad,
                 ..still
             };
-            let model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2).joined(train);
-            let start = FreeRun { clutch: clutch.clone(), curve: None, speed_rad_s: free_run_rad_s };
+            let (carried, touch) = in_cage(&at_rest)?;
+            let mut model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2).joined(train);
+            model.carried = carried;
+            let start = FreeRun { clutch: clutch.clone(), curve: touch, speed_rad_s: free_run_rad_s };
             let free = start.steady(&model, &model.friction);
-            let (state, mode) = overrunning(&free, &model.curve, free_run_rad_s);
+            let (state, mode) = overrunning(&free, &model, free_run_rad_s);
             let held = model.curve.at_torque(reversing_torque_nm).map(|p| p.normal_inner_n);
             let prepared = finish(model, state, mode, duration_s, None, Some(free));
             let static_normal_n = held.unwrap_or(prepared.static_normal_n);
@@ -272,8 +281,12 @@ fn at_start(
             });
             let curve = if of_curve == 0.0 { at_rest } else { build(of_curve)? };
             let loads = Loads { abutment_nm_per_rad: abutment_stiffness_nm_per_rad, ..still };
+            let (carried, touch) = in_cage(&curve)?;
             let free_run = if overrun_rad_s > 0.0 {
-                let curve = if at_start == of_curve { None } else { Some(build(at_start)?) };
+                let curve = match touch {
+                    None if at_start != of_curve => Some(build(at_start)?),
+                    touch => touch,
+                };
                 Some(FreeRun { clutch: clutch.clone(), curve, speed_rad_s: overrun_rad_s })
             } else {
                 None
@@ -282,10 +295,11 @@ fn at_start(
             let largest = train.as_ref().map_or(largest, |t| largest.max(t.largest_nm()));
             let mut model = Model::new(clutch, curve, loads, alpha_max, 0.0);
             model.drive = drive;
+            model.carried = carried;
             let mut model = model.joined(train);
             let free = free_run.as_ref().map(|f| f.steady(&model, &model.friction));
             let (state, mode) = match &free {
-                Some(free) => overrunning(free, &model.curve, overrun_rad_s),
+                Some(free) => overrunning(free, &model, overrun_rad_s),
                 None => {
                     let torque_nm = model.drive.torque_at(0.0).max(0.0);
                     let (state, place) = start(&mut model, torque_nm)?;
@@ -298,7 +312,11 @@ fn at_start(
             Ok(Prepared { static_normal_n, free_run, ..prepared })
         }
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
-            let curve = build(speed_rad_s)?;
+            let curve = if clutch.cage.is_some() {
+                touch(clutch, &profile, speed_rad_s).map_err(NoScenario::Curve)?
+            } else {
+                build(speed_rad_s)?
+            };
             // Which race runs ahead is no matter to the sprags: they ride with the outer one, and slide on the inner one as fast.
             let sliding = sliding(clutch, &curve, alpha_max, overrun_rad_s);
             let steady = sliding.state;
@@ -321,11 +339,16 @@ fn friction_under(clutch: &Clutch, law: &Stribeck, overrun_rad_s: f64) -> f64 {
     law.coefficient(overrun_rad_s * clutch.sliding_track_m())
 }
 
-/// Start in steady overrun: the sprags ride with the outer race, the inner race runs ahead by `speed_rad_s`.
-fn overrunning(free: &Overrun, curve: &WedgeCurve, speed_rad_s: f64) -> (State, Mode) {
+/// Start in steady overrun: the inner race runs ahead by `speed_rad_s` of sprags that ride with the outer race, or with sprags that a
+/// driven cage carries.
+fn overrunning(free: &Overrun, model: &Model, speed_rad_s: f64) -> (State, Mode) {
+    let curve = &model.curve;
     let mut state = [0.0; N_STATE];
-    state[0] = free.alpha_rad;
-    state[6] = speed_rad_s;
+    (state[0], state[6]) = (free.alpha_rad, speed_rad_s);
+    if model.carried.is_some() {
+        (state[0], state[5]) = (curve.first_contact_rad(), speed_rad_s);
+        return (state, Mode { place: Place::Carried, inner: Grip::Stick, outer: Grip::Slip(-1.0) });
+    }
     let closed = free.normal_inner_n > 0.0;
     let place = if closed { Place::Arc(curve.arc_at(free.alpha_rad)) } else { Place::Open };
     (state, Mode { place, inner: Grip::Slip(1.0), outer: Grip::Stick })

@@ -23,6 +23,9 @@ pub fn simulate_published(
     if prepared.duration_s == 0.0 {
         return Ok(steady(&prepared, settings));
     }
+    if prepared.model.carried.is_some() && prepared.free_run.is_some() {
+        return Err(NoScenario::DrivenCage("the published scheme"));
+    }
     if prepared.model.drive.train.is_some() {
         return Err(NoScenario::PublishedTrain);
     }

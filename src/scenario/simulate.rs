@@ -423,8 +423,10 @@ pub(super) fn verdict(prepared: &Prepared, run: &Run, error: &ErrorEstimate) -> 
     if run.stop != Stop::Finished {
         return None;
     }
-    let net = slips(run)[0].net_m;
-    Some(if prepared.model.point(run.mode.place, run.state[0]).n_bi <= 0.0 {
+    let net = slips(run)[0].net_m + run.carried_m;
+    Some(if run.mode.place == Place::Carried {
+        Verdict::SlipsOverrunning
+    } else if prepared.model.point(run.mode.place, run.state[0]).n_bi <= 0.0 {
         Verdict::Disengages
     } else if (net.abs() - SLIPPED_M).abs() <= error.net_slip_m {
         Verdict::AtThreshold

@@ -1,7 +1,7 @@
 //! Steady overrun as it is: friction by (12), or by the film at the temperature of its heat balance.
 
 use super::prepare::sliding_friction;
-use crate::clutch::{Clutch, Lubrication, Scenario};
+use crate::clutch::{Clutch, Lubrication, Scenario, Sprags};
 use crate::dynamics::{
     Overrun, SlidingContact, Swing, overrun_in_cage, overrun_under, swing_in_cage,
     swing_in_cage_with_friction, swing_on_film, swing_with_friction,
@@ -9,7 +9,9 @@ use crate::dynamics::{
 use crate::friction::{FilmFriction, FilmState};
 use crate::lubrication::{FilmContact, Heat, Network, moving_strip, squeeze_out_s, standing_strip};
 use crate::numeric::root;
-use crate::wedge::WedgeCurve;
+use crate::profile::Profile;
+use crate::wedge::{NoCurve, WedgeCurve};
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Steady overrun with what lubricates it.
@@ -54,14 +56,30 @@ pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, ahead_ra
             Sliding { state, friction, lubricated: Some(lubricated) }
         }
         None => {
-            let state = settled(clutch, curve, alpha_max_rad, ahead_rad_s, |_| SlidingContact::dry(by_law));
+            let state = steady_under(clutch, curve, alpha_max_rad, ahead_rad_s, |_| SlidingContact::dry(by_law));
             Sliding { state, friction: by_law, lubricated: None }
         }
     }
 }
 
-/// The equilibrium whose contact slides so under its load.
-fn settled(
+/// A curve as far as overrun feels it, the first contact at that speed of the outer race; in a driven cage without the sprags' weight,
+/// whose force is that of another speed.
+///
+/// # Errors
+/// [`NoCurve`].
+pub fn touch(clutch: &Clutch, profile: &Profile, outer_rad_s: f64) -> Result<WedgeCurve, NoCurve> {
+    let clutch = match clutch.cage {
+        Some(_) if outer_rad_s != 0.0 => {
+            let sprags = Sprags { mass_kg: 0.0, ..clutch.sprags.clone() };
+            Cow::Owned(Clutch { sprags, ..clutch.clone() })
+        }
+        _ => Cow::Borrowed(clutch),
+    };
+    WedgeCurve::build_reaching(&clutch, profile, outer_rad_s, Some(0.0))
+}
+
+/// The equilibrium whose contact slides so under its load; arguments as of [`sliding()`].
+pub(super) fn steady_under(
     clutch: &Clutch,
     curve: &WedgeCurve,
     alpha_max_rad: f64,
@@ -92,12 +110,24 @@ impl Sliding {
         ahead_rad_s: f64,
     ) -> Option<Swing> {
         let film = self.lubricated.as_ref().map(|l| &l.law);
-        if clutch.slides_outside() {
-            let speeds = in_cage(clutch, curve, ahead_rad_s);
-            return swing_in_cage(clutch, curve, alpha_max_rad, &self.state, speeds, film);
-        }
-        swing_on_film(clutch, curve, alpha_max_rad, &self.state, ahead_rad_s.abs(), film)
+        swing_about(&self.state, clutch, curve, alpha_max_rad, ahead_rad_s, film)
     }
+}
+
+/// The small swing about `steady`; arguments as of [`sliding()`].
+pub(super) fn swing_about(
+    steady: &Overrun,
+    clutch: &Clutch,
+    curve: &WedgeCurve,
+    alpha_max_rad: f64,
+    ahead_rad_s: f64,
+    film: Option<&FilmFriction>,
+) -> Option<Swing> {
+    if clutch.slides_outside() {
+        let speeds = in_cage(clutch, curve, ahead_rad_s);
+        return swing_in_cage(clutch, curve, alpha_max_rad, steady, speeds, film);
+    }
+    swing_on_film(clutch, curve, alpha_max_rad, steady, ahead_rad_s.abs(), film)
 }
 
 impl Lubricated {
@@ -129,9 +159,9 @@ pub struct SqueezedOut {
     pub time_s: f64,
 }
 
-/// The film of a scene that begins in overrun, `start`, once nothing slides any more; `None` without one.
+/// The film at A of a scene that begins in overrun, `start`, once nothing slides any more; `None` without one, as in a driven cage.
 pub fn squeezed_out(scenario: &Scenario, start: &Overrun) -> Option<SqueezedOut> {
-    let clutch = &scenario.clutch;
+    let clutch = Some(&scenario.clutch).filter(|clutch| !clutch.slides_outside())?;
     let law = FilmFriction::of(clutch, clutch.lubrication.as_ref()?.temperature_c)?;
     let [ahead, _] = Some(&scenario.kind).filter(|kind| !kind.is_overrun())?.overrun_rad_s()?;
     let normal_n = Some(start.normal_inner_n).filter(|n| *n > 0.0)?;
@@ -158,7 +188,7 @@ impl Steady<'_> {
     fn at(&self, film_c: f64) -> Option<(Overrun, Lubricated)> {
         let law = FilmFriction::in_overrun(self.clutch, film_c)?;
         let speed = self.sliding_rad_s() * self.clutch.sliding_track_m();
-        let state = settled(self.clutch, self.curve, self.alpha_max_rad, self.ahead_rad_s, |n| {
+        let state = steady_under(self.clutch, self.curve, self.alpha_max_rad, self.ahead_rad_s, |n| {
             SlidingContact::on(&law, speed, n)
         });
         if state.sliding_n <= 0.0 {

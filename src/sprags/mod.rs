@@ -170,6 +170,10 @@ impl Many {
             return Err(NoEachSprag::Drivetrain);
         }
         let alike = prepare(scenario).map_err(NoEachSprag::NoScenario)?;
+        if alike.model.carried.is_some() && alike.free_run.is_some() {
+            let why = NoScenario::DrivenCage("a run of sprags one by one");
+            return Err(NoEachSprag::NoScenario(why));
+        }
         let clutch = &scenario.clutch;
         let curve = &alike.model.curve;
         let at_rest = if curve.speed_rad_s() == 0.0 {

@@ -161,7 +161,8 @@ pub fn scene_view(
         modes: samples
             .iter()
             .map(|p| {
-                let inner = if p.mode.place == Place::Open { 2 } else { mode(p.mode.inner) };
+                let apart = matches!(p.mode.place, Place::Open | Place::Carried);
+                let inner = if apart { 2 } else { mode(p.mode.inner) };
                 [inner, mode(p.mode.outer)]
             })
             .collect(),

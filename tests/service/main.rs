@@ -3,6 +3,7 @@
 #[path = "../common/program.rs"]
 mod program;
 
+mod carried;
 mod driven_cage;
 mod feed;
 mod life;

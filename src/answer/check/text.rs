@@ -120,19 +120,6 @@ fn no_film_row(design: &Design, rows: &[Margin]) -> Option<String> {
     })
 }
 
-/// What a scene whose contact opens means with a driven cage.
-fn opens_in_cage(design: &Design, rows: &[Margin]) -> Option<String> {
-    let opens = |r: &&Margin| design.clutch.cage.is_some() && r.is_contact() && !r.held();
-    let mut names: Vec<&str> = rows.iter().filter(opens).filter_map(|r| r.scene.as_deref()).collect();
-    names.dedup();
-    (!names.is_empty()).then(|| {
-        format!(
-            "Note on {}: contact A opens; from then on the equations of motion let the sprags ride with the outer race, not with the cage",
-            names.join(", ")
-        )
-    })
-}
-
 /// What the rows do not say: a friction beyond any known, why steady overruns have no rows, steps and histories that come after
 /// the end of their scene.
 pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
@@ -140,9 +127,10 @@ pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
     let names: Vec<&str> = steady.map(|s| s.name.as_str()).collect();
     let overrunning = (!names.is_empty()).then(|| {
         format!(
-            "No slip or contact row for {}: in steady overrun the inner contact slides and nothing is to stick; limits \
+            "No slip or contact row for {}: in steady overrun the {} contact slides and nothing is to stick; limits \
              keep_contact_to_rpm and lift_off_by_rpm hold it",
-            names.join(", ")
+            names.join(", "),
+            if design.clutch.slides_outside() { "outer" } else { "inner" }
         )
     });
     let held = design.scenarios.iter().filter(|s| rows.iter().any(|r| r.scene.as_ref() == Some(&s.name)));
@@ -152,7 +140,6 @@ pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
         .into_iter()
         .chain(overrunning)
         .chain(no_film_row(design, rows))
-        .chain(opens_in_cage(design, rows))
         .chain(unfelt)
         .collect()
 }

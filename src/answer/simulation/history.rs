@@ -260,12 +260,12 @@ fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePe
     let model = &prepared.model;
     let p = model.point(sample.mode.place, sample.state[0]);
     let f = &sample.forces;
-    let closed = sample.mode.place != Place::Open;
+    let closed = !matches!(sample.mode.place, Place::Open | Place::Carried);
     let tan = |t: f64, n: f64| (closed && n > 0.0).then(|| t / n);
     let elastic = &model.curve.statics().elastic;
     let arc = match sample.mode.place {
         Place::Arc(k) => model.curve.first_arc() + k,
-        Place::Open | Place::Tension => 0,
+        Place::Open | Place::Tension | Place::Carried => 0,
     };
     HistoryRow {
         sample: *sample,
@@ -290,6 +290,9 @@ fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePe
 pub fn word(mode: &Mode, inner: bool) -> &'static str {
     if mode.place == Place::Open && inner {
         return "open";
+    }
+    if mode.place == Place::Carried && inner {
+        return "cage";
     }
     match if inner { mode.inner } else { mode.outer } {
         Grip::Stick => "stick",

@@ -140,10 +140,10 @@ fn driven_cage(scene: &Ran) -> Option<LeftOut> {
         scene.scenario.clutch.sprags.count as f64 * spring.stiffness_nm_per_rad * model.alpha_max_rad.abs();
     Some(LeftOut::new(
         "what the driven cage does to the sprags",
-        "its inertia is the inner race's; its pockets leave sprags under load their play, and the spring reacts as on a free cage",
+        "its inertia is the inner race's; its pockets leave sprags under load their play, none to those that it carries, and the spring \
+         reacts as on a free cage",
         &format!(
-            "at most {} of the clutch while A carries; once A opens the sprags of this run ride with the outer race, what follows then \
-             does not hold",
+            "at most {} of the clutch while A carries",
             Unit::NewtonMetre.show(spring_nm, 2)
         ),
     ))

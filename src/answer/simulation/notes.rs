@@ -25,15 +25,6 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>, settings: &SimulationSet
             Unit::Hertz.show(swing.frequency_hz, 3),
         ));
     }
-    if let Some(s) = simulation.filter(|s| s.contact_lost_s > 0.0)
-        && scene.scenario.clutch.cage.is_some()
-    {
-        notes.push(format!(
-            "warning: A is open for {} of this run: there the sprags ride with the outer race and not with the cage; figures hold as far \
-             as A carries",
-            Unit::Second.show(s.contact_lost_s, 3)
-        ));
-    }
     if scene.method == "equilibrium" {
         if settings.is_published() || settings.step_s.is_some() {
             notes.push("an equilibrium: nothing is integrated, --method and --step say nothing".into());

@@ -18,7 +18,7 @@ impl Ran {
         match &self.outcome {
             Ok((_, s)) => s.verdict.map(Verdict::name),
             Err(NoScenario::NotCarried { .. }) => Some(Verdict::Overloaded.name()),
-            Err(NoScenario::PublishedTrain) => None,
+            Err(NoScenario::PublishedTrain | NoScenario::DrivenCage(_)) => None,
             Err(_) => Some(Verdict::Disengages.name()),
         }
     }
@@ -162,7 +162,7 @@ fn on_the_way(s: &Simulation) -> Option<String> {
     if parts.is_empty() {
         return None;
     }
-    let sticks = |mode: &Mode| mode.place != Place::Open && mode.inner == Grip::Stick;
+    let sticks = |mode: &Mode| !matches!(mode.place, Place::Open | Place::Carried) && mode.inner == Grip::Stick;
     let first_of_last = s.modes.iter().rposition(|(_, mode)| !sticks(mode)).map(|last| last + 1);
     let from = first_of_last.and_then(|k| s.modes.get(k));
     let since = from.map_or(String::new(), |(t_s, _)| format!(", sticks from {} on", time(*t_s)));
@@ -174,7 +174,9 @@ fn on_the_way(s: &Simulation) -> Option<String> {
 fn shifted(s: &Simulation) -> String {
     let sense = |towards: f64| if towards > 0.0 { "overrunning" } else { "engaging" };
     let offset = Unit::Milliradian.show(s.offset_rad.abs(), 4);
-    let (slip, race) = (sense(s.inner.net_m), sense(s.offset_rad));
+    // Sprags that a cage carries slide at B alone.
+    let slip = if s.inner.net_m == 0.0 { s.offset_rad } else { s.inner.net_m };
+    let (slip, race) = (sense(slip), sense(s.offset_rad));
     if slip == race {
         return format!("slip has shifted the inner race by {offset} towards {race}");
     }

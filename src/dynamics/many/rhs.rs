@@ -398,7 +398,7 @@ impl<'a> Rhs<'a> {
             (Some(s), _) => {
                 let model = &self.groups[g].model;
                 let own = state_of(y, g);
-                let mut seen = probe_of(model, &motion.mode, &own, &s.point, &s.forces, true);
+                let mut seen = probe_of(model, &motion.mode, t, &own, &s.point, &s.forces, true);
                 // They are bent as y has them.
                 let pressed_rad = || Some(self.bent.as_ref()?.try_borrow().ok()?.pressed_rad(g));
                 for which in [LOWER, UPPER] {

@@ -94,6 +94,7 @@ fn shortened<const N: usize>(run: Run<N>, train: Train) -> Run {
         mode: run.mode,
         inner: run.inner,
         outer: run.outer,
+        carried_m: run.carried_m,
         open_s: run.open_s,
         longest_open_s: run.longest_open_s,
         peaks: run.peaks,

@@ -114,7 +114,8 @@ impl Train {
             return (self.clone(), more);
         }
         let sides = self.at_sides(model, [state[6], state[7]]);
-        let carried_nm = self.carried_nm.filter(|_| slipping(mode).is_none());
+        let slides = slipping(mode).is_some() || mode.place == Place::Carried;
+        let carried_nm = self.carried_nm.filter(|_| !slides);
         let clutch_nm = carried_nm.unwrap_or_else(|| friction_nm(model, state, mode));
         let on_side = [sides.torque_nm[0] + clutch_nm, sides.torque_nm[1] - clutch_nm];
         let held = model.loads.abutment_nm_per_rad > 0.0;
@@ -160,10 +161,15 @@ fn slipping(mode: &Mode) -> Option<f64> {
 
 /// Torque of the clutch on the inner race by friction at A, N m; 0 where that does not slip.
 fn friction_nm(model: &Model, state: &State, mode: &Mode) -> f64 {
+    let p = model.point(mode.place, state[0]);
+    if mode.place == Place::Carried {
+        // Before the cage is accelerated.
+        let rates = model.rates(mode, &p, state);
+        return model.carried_drag_nm(0.0, &p, &rates);
+    }
     if slipping(mode).is_none() {
         return 0.0;
     }
-    let p = model.point(mode.place, state[0]);
     let v_a = model.slip_velocities(&p, &model.rates(mode, &p, state)).0;
     -v_a.signum() * model.friction.coefficient(v_a.abs()) * p.n_bi * p.oa * model.count
 }
