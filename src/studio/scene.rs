@@ -94,23 +94,20 @@ pub fn scene_view(
     if let (Some(free), ScenarioKind::Overrun { speed_rad_s, overrun_rad_s }) =
         (prepared.overrun, scenario.kind)
     {
-        let normal = Unit::Newton.show(free.normal_inner_n, 3);
+        let carried = scenario.clutch.slides_outside();
+        let (track, other) = if carried { ("outer", free.normal_outer_n) } else { ("inner", free.normal_inner_n) };
+        let normal = Unit::Newton.show(other, 3);
         let heat = Unit::Watt.show(free.drag_torque_nm * overrun_rad_s.abs(), 3);
-        let on = free.normal_inner_n > 0.0;
+        let on = free.sliding_n > 0.0;
         return Ok(SceneView {
             name: scenario.name.clone(),
-            verdict: if on {
-                "runs free, sliding on the inner race"
-            } else {
-                "runs free, off the inner race"
-            }
-            .to_owned(),
+            verdict: format!("runs free, {} the {track} race", if on { "sliding on" } else { "off" }),
             facts: [
                 ("outer race", Unit::Rpm.show(speed_rad_s, 5)),
                 ("inner race", Unit::Rpm.show(speed_rad_s + overrun_rad_s, 5)),
                 ("drag torque", Unit::NewtonMetre.show(free.drag_torque_nm, 3)),
                 ("heat", heat),
-                ("normal force, inner, per sprag", normal),
+                (&format!("normal force, {track}, per sprag"), normal),
             ]
             .map(|(name, value)| (name.to_owned(), value))
             .to_vec(),

@@ -112,6 +112,9 @@ fn one_verdict(c: &ResonanceCell) -> String {
     let what = match s.kind {
         MotionKind::Rolls => "rolls in each period".to_owned(),
         MotionKind::Slips => format!("slips {} in each period", Unit::Micrometre.show(slip, 4)),
+        MotionKind::LiftsOff if motion.is_some_and(|o| o.run.open_s == 0.0) => {
+            "comes loose in each period: the cage takes the sprags along".to_owned()
+        }
         MotionKind::LiftsOff => format!(
             "lifts off for {} in each period",
             Unit::Millisecond.show(motion.map_or(0.0, |o| o.run.open_s), 3)

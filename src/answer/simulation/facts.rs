@@ -325,8 +325,13 @@ fn equilibrium(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulatio
         add("drag torque", o.drag_torque_nm, Unit::NewtonMetre);
         add("normal force, inner", o.normal_inner_n, Unit::Newton);
         add("normal force, outer", o.normal_outer_n, Unit::Newton);
-        add("|T|/N, inner (sliding friction)", o.tan_inner, Unit::One);
-        add("|T|/N, outer (must hold)", o.tan_outer, Unit::One);
+        let carried = scene.scenario.clutch.slides_outside();
+        if carried {
+            add("|T|/N, outer (sliding friction)", o.tan_outer, Unit::One);
+        } else {
+            add("|T|/N, inner (sliding friction)", o.tan_inner, Unit::One);
+            add("|T|/N, outer (must hold)", o.tan_outer, Unit::One);
+        }
         if let Some(swing) = overrun_swing(&scene.scenario, prepared) {
             f.add(
                 "growth rate of the sprags' swing (+ grows)",
@@ -335,12 +340,14 @@ fn equilibrium(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulatio
                 None,
             );
             f.add("frequency of that swing", swing.frequency_hz, Unit::Hertz, None);
-            f.add("normal force, inner, about which it swings", swing.normal_inner_n, Unit::Newton, None);
+            let name = if carried { "normal force, outer" } else { "normal force, inner" };
+            f.add(&format!("{name}, about which it swings"), swing.normal_inner_n, Unit::Newton, None);
         }
         let error = Some(LIFT_OFF_ERROR * LIFT_OFF_SEARCH_RAD_S);
+        let name = format!("lift-off at an {} race speed of", if carried { "inner" } else { "outer" });
         match scene.lift_off_rad_s() {
-            Some(speed) => f.add("lift-off at an outer race speed of", speed, Unit::Rpm, error),
-            None => f.word("lift-off at an outer race speed of", "none up to 60 000 rpm"),
+            Some(speed) => f.add(&name, speed, Unit::Rpm, error),
+            None => f.word(&name, "none up to 60 000 rpm"),
         }
         return;
     }

@@ -92,7 +92,7 @@ fn film(scene: &Ran) -> (&'static str, &'static str) {
     match (&scene.design.clutch.lubrication, overruns) {
         (Some(_), true) => (
             "time that a film takes to form",
-            "friction at A is that of the film at speed and load of the moment, at the temperature of steady overrun",
+            "friction where the sprags slide is that of the film at speed and load of the moment, at the temperature of steady overrun",
         ),
         (Some(_), false) => (
             "lubricant film and temperature",
@@ -151,7 +151,7 @@ fn driven_cage(scene: &Ran) -> Option<LeftOut> {
 
 /// Why a run in steady overrun settles beside the equilibrium, and by how much ([`crate::dynamics::swing()`]).
 fn static_outer_force(scene: &Ran) -> Option<LeftOut> {
-    let (prepared, s) = scene.outcome.as_ref().ok()?;
+    let (prepared, s) = scene.outcome.as_ref().ok().filter(|_| !scene.scenario.clutch.slides_outside())?;
     let swing = overrun_swing(&scene.scenario, prepared)?;
     let off = swing.normal_inner_n / s.overrun?.normal_inner_n - 1.0;
     Some(LeftOut::new(

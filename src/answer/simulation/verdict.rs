@@ -2,7 +2,7 @@
 
 use super::Ran;
 use crate::answer::roll_over::followed;
-use crate::clutch::ScenarioKind;
+use crate::clutch::{Scenario, ScenarioKind};
 use crate::dynamics::{Grip, Mode, Place, Stop, Swing};
 use crate::margin::{lift_off_rad_s as lift_off, load_state};
 use crate::report::Unit;
@@ -40,7 +40,7 @@ impl Ran {
                     curve.end().0.name()
                 )
             }
-            Ok((prepared, s)) => meaning(s, &self.scenario.kind, overrun_swing(&self.scenario, prepared)),
+            Ok((prepared, s)) => meaning(s, &self.scenario, overrun_swing(&self.scenario, prepared)),
         };
         format!("{name}: {verdict}: {meaning}")
     }
@@ -86,7 +86,8 @@ impl Ran {
     }
 }
 
-fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String {
+fn meaning(s: &Simulation, scenario: &Scenario, swing: Option<Swing>) -> String {
+    let (kind, clutch) = (&scenario.kind, &scenario.clutch);
     let margin = match s.demand.map(|d| d.required_friction.zip(d.slip_margin)) {
         Some(Some((needed, margin))) => {
             format!("slip margin {} (needs {})", Unit::Percent.show(margin, 3), Unit::One.show(needed, 4))
@@ -105,7 +106,8 @@ fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String 
         Some(Verdict::SlipsOverrunning | Verdict::Disengages) if overruns => {
             let drag = s.overrun.map_or(0.0, |o| o.drag_torque_nm);
             if s.verdict == Some(Verdict::Disengages) {
-                "the sprags have lifted off the inner race: no drag".to_owned()
+                let track = if clutch.slides_outside() { "outer" } else { "inner" };
+                format!("the sprags have lifted off the {track} race: no drag")
             } else {
                 let stays = match swing.filter(Swing::grows) {
                     Some(_) => " in an equilibrium that does not stay: the swing of the sprags grows",
