@@ -79,6 +79,7 @@ const TYPICAL: &[(&str, &str)] = &[
     ("orders[].phase_rad", "0 … 6.28"),
     ("pitting.exponent", "6.67"),
     ("limits.along_mpa", "4200 … 5000"),
+    ("limits.at_speed_rpm", "the clutch's own speed"),
     ("limits.axial_load_n", "0 … some 100"),
     ("limits.case_depth_mm", "0.3 … 1.2"),
     ("limits.case_shear_mpa", "900 … 1300, 60 HRC"),

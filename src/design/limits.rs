@@ -158,6 +158,8 @@ limits! {
         "Allowed equivalent stress (von Mises) of the inner race under the mean track pressure at nominal torque, MPa.";
     equivalent_outer_mpa: "exclusiveMinimum" 0, "MPa" -> equivalent_outer_pa by pa, AT_NOMINAL,
         "Allowed equivalent stress (von Mises) of the outer race under the mean track pressure at nominal torque, MPa.";
+    at_speed_rpm: "exclusiveMinimum" 0, "rpm" -> at_speed_rad_s by rad_s, ALONE,
+        "Speed of the clutch at which the limits at nominal and peak torque are held beside rest, rev/min: the races grow, sprags press\noutward, rotation adds to the hoop stress of the outer race.";
     slip_margin: "minimum" 0, "" -> slip_margin by same, ALONE,
         "Smallest slip margin wanted, static friction over required friction minus 1.";
     keep_contact_to_rpm: "exclusiveMinimum" 0, "rpm" -> keep_contact_to_rad_s by rad_s, ALONE,

@@ -14,7 +14,7 @@ use super::watch::{Watch, highest, sample_extremes};
 use super::zeno::{Zeno, resolution_s};
 use crate::ode::adaptive::{Adaptive, Size};
 use crate::ode::rhs::RightHandSide;
-use crate::ode::step::{Dense, Room, Step, Tolerance};
+use crate::ode::step::{Counters, Dense, Room, Step, Tolerance};
 use nalgebra::Const;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
@@ -435,11 +435,20 @@ where
     /// Extremes, samples and works inside a step that is taken.
     pub(super) fn remember(&mut self, step: &Step<N>, probes: &Probes, rhs: &mut Observed) -> Result<(), ()> {
         self.watch.step(&mut self.run, self.repeat.as_mut(), step, probes, rhs)?;
-        if let Some(audit) = &mut self.audit {
-            audit.step(self.model, &self.run.mode, step, rhs);
+        let mode = &self.run.mode;
+        let rubs = SlipWatch::sees(mode) && self.run.engaged.is_some();
+        let slip_watch = self.slip_watch.as_mut().filter(|_| rubs);
+        if self.audit.is_none() && slip_watch.is_none() {
+            return Ok(());
         }
-        if let Some(watch) = self.slip_watch.as_mut().filter(|_| self.run.engaged.is_some()) {
-            watch.step(self.model, &self.run.mode, step, rhs);
+        // Evaluations of such a watch are none of the run's.
+        let Ok(dense) = step.dense(rhs, &mut Counters::default()) else { return Ok(()) };
+        let times = [step.t(), step.t() + step.h()];
+        if let Some(audit) = &mut self.audit {
+            audit.step(self.model, mode, times, &dense);
+        }
+        if let Some(watch) = slip_watch {
+            watch.step(self.model, mode, times, &dense);
         }
         Ok(())
     }

@@ -12,11 +12,10 @@
 //! the projections at them have done wrong.
 
 use super::model::{Grip, Mode, Model, N_STATE, Place};
-use super::probes::Observed;
 use super::run::Run;
 use crate::numeric::quadrature;
 use crate::ode::adaptive::Size;
-use crate::ode::step::{Counters, Step};
+use crate::ode::step::Dense;
 use crate::wedge::WedgePoint;
 use nalgebra::Const;
 
@@ -240,18 +239,16 @@ impl Audit {
         self.works[CONTACT] += after - before;
     }
 
-    /// Count the works of an accepted step, by quadrature over its dense output, whose evaluations are none of the run's.
+    /// Count the works of an accepted step between `times` (s), by quadrature over its dense output.
     pub(super) fn step<const N: usize>(
         &mut self,
         model: &Model,
         mode: &Mode,
-        step: &Step<N>,
-        rhs: &mut Observed,
+        [from, until]: [f64; 2],
+        dense: &Dense<N>,
     ) where
         Const<N>: Size,
     {
-        let Ok(dense) = step.dense(rhs, &mut Counters::default()) else { return };
-        let (from, until) = (step.t(), step.t() + step.h());
         self.through_j += quadrature::integrals(from, until, |t| {
             let powers = model.powers(mode, t, &dense.at(t));
             let all = powers.iter().map(|p| p.abs()).sum::<f64>();

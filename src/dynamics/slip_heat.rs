@@ -5,11 +5,10 @@
 //! one another before heat has gone sideways from below the flat ([`stays_s`]) are one: it rests in between, and cools.
 
 use super::model::{Grip, Mode, Model, Place};
-use super::probes::Observed;
 use crate::lubrication::{Flash, peclet, stays_s};
 use crate::numeric::quadrature;
 use crate::ode::adaptive::Size;
-use crate::ode::step::{Counters, Step};
+use crate::ode::step::Dense;
 use nalgebra::Const;
 
 /// What slip at one contact of one sprag has come to.
@@ -183,6 +182,20 @@ pub(super) struct SlipWatch {
     marked: [Rubbing; 2],
 }
 
+/// Which arc is at the inner race, and in which sense each contact slips; `None` where neither does under load.
+fn rubs(mode: &Mode) -> Option<(usize, [Option<f64>; 2])> {
+    let arc = match mode.place {
+        Place::Arc(k) => k,
+        Place::Carried => 0,
+        Place::Open | Place::Tension => return None,
+    };
+    let senses = [mode.inner, mode.outer].map(|grip| match grip {
+        Grip::Slip(sense) => Some(sense),
+        Grip::Stick => None,
+    });
+    (senses != [None; 2]).then_some((arc, senses))
+}
+
 impl SlipWatch {
     /// Nothing has slipped.
     pub(super) fn new() -> Self {
@@ -194,26 +207,22 @@ impl SlipWatch {
         self.contacts.map(|c| Some(c.heat).filter(|heat| heat.whole.time_s > 0.0))
     }
 
-    /// An accepted step in `mode`, whose further evaluations are none of the run's.
+    /// Whether [`Self::step`] has anything to see in `mode`.
+    pub(super) fn sees(mode: &Mode) -> bool {
+        rubs(mode).is_some()
+    }
+
+    /// An accepted step in `mode` between `times` (s).
     pub(super) fn step<const N: usize>(
         &mut self,
         model: &Model,
         mode: &Mode,
-        step: &Step<N>,
-        rhs: &mut Observed,
+        [from, until]: [f64; 2],
+        dense: &Dense<N>,
     ) where
         Const<N>: Size,
     {
-        let Place::Arc(k) = mode.place else { return };
-        let senses = [mode.inner, mode.outer].map(|grip| match grip {
-            Grip::Slip(sense) => Some(sense),
-            Grip::Stick => None,
-        });
-        if senses == [None; 2] {
-            return;
-        }
-        let Ok(dense) = step.dense(rhs, &mut Counters::default()) else { return };
-        let (from, until) = (step.t(), step.t() + step.h());
+        let Some((k, senses)) = rubs(mode) else { return };
         let elastic = &model.curve.statics().elastic;
         let arc = (model.curve.first_arc() + k).min(elastic.inner_contact.len() - 1);
         let flats = [&elastic.inner_contact[arc], &elastic.outer_contact];

@@ -45,6 +45,12 @@ impl Draft {
         let contact: String = asked
             .zip(self.contact_from)
             .filter_map(|((key, speed), from)| Some(format!("{key} = {}    # {from}\n", rpm(speed?))))
+            .chain((self.speed_rad_s > 0.0).then(|| {
+                format!(
+                    "at_speed_rpm = {}         # it carries its torque up to there\n",
+                    rpm(self.speed_rad_s)
+                )
+            }))
             .collect();
         let inertias = match &self.inner_inertia_kg_m2 {
             Some((inertia, from)) => format!(

@@ -13,7 +13,7 @@ pub(super) enum Which {
     Outer,
 }
 
-/// Hoop stress with what the fits add, Pa: the mean, or with the `bending` of the ring; of the inner race as a magnitude.
+/// Hoop stress with what the fits and, of the outer race, the curve's speed add, Pa: the mean, or with the `bending` of the ring; of the inner race as a magnitude.
 ///
 /// A fitted race is one piece with its partner, so the load's share is Lame's of that piece, at the race's joint and at
 /// its track, and the fit's own stress is added at each place. The larger magnitude counts, loaded or at rest: a shaft
@@ -44,7 +44,12 @@ pub(super) fn hoop_pa(case: &LoadCase, p: &StaticPoint, which: Which, bending: b
         Which::Inner => &running.inner,
         Which::Outer => &running.outer,
     });
-    match fitted.filter(|track| track.joint_pressure_pa != 0.0) {
+    // Of rotation, which stretches; the inner race is pressed together by its load.
+    let spun = match which {
+        Which::Inner => 0.0,
+        Which::Outer => race.rotating_bore_hoop_pa(case.state.curve.speed_rad_s()),
+    };
+    spun + match fitted.filter(|track| track.joint_pressure_pa != 0.0) {
         None => plain,
         Some(track) => fitted_pa(track, race, count, normal_n) + (plain - mean),
     }

@@ -37,6 +37,13 @@ impl LoadState {
     pub fn at_rest<'a>(&'a self, design: &'a Design) -> AtRest<'a> {
         AtRest { clutch: &design.clutch, curve: &self.curve, at_speeds: &self.at_speeds }
     }
+
+    /// The same while the clutch turns at `speed_rad_s`; `None` where no curve is found there.
+    pub(super) fn turning(&self, design: &Design, speed_rad_s: f64) -> Option<Self> {
+        let effort = self.curve.effort();
+        let curve = self.at_speeds.of(&self.curve, &design.clutch, speed_rad_s, None, effort)?;
+        Some(Self { curve, ..self.clone() })
+    }
 }
 
 /// Build it.
@@ -131,6 +138,44 @@ pub struct LoadRows {
     /// Looks at states between no load and a torque at which a row that counts over all of them has its worst: it has it there in the
     /// state of a neighbour too that differs by next to nothing.
     pub deciding: Vec<usize>,
+}
+
+/// Behind the name of a row that is worse while the clutch turns than at rest.
+const TURNING: &str = "turning at at_speed_rpm";
+
+impl Margin {
+    /// Whether it is that of the clutch turning at `limits.at_speed_rpm`.
+    pub fn turns(&self) -> bool {
+        self.aside.as_ref().is_some_and(|aside| aside.starts_with(TURNING))
+    }
+}
+
+impl LoadRows {
+    /// Of each limit that is held at a torque the row at rest or that of the clutch `turning`, whichever is worse; lost where that has
+    /// no curve.
+    pub(super) fn or_turning(mut self, turning: Option<Self>) -> Self {
+        let loaded = |row: &&mut Margin| matches!(row.limit.when, When::Nominal | When::Peak);
+        let Some(turning) = turning else {
+            for row in self.rows.iter_mut().filter(loaded) {
+                row.demand = Demand::Overloaded { at_end: None, beyond: BeyondEnd::Short(-1.0) };
+                row.aside = Some(format!("{TURNING}, where no curve is found"));
+                row.torque_capacity_nm = row.torque_capacity_nm.map(|_| 0.0);
+            }
+            return self;
+        };
+        for row in self.rows.iter_mut().filter(loaded) {
+            let there = turning.rows.iter().find(|there| there.limit.code == row.limit.code);
+            if let Some(there) = there.filter(|there| there.margin() < row.margin()) {
+                let aside = match &there.aside {
+                    None => TURNING.to_owned(),
+                    Some(aside) => format!("{TURNING}, {aside}"),
+                };
+                *row = Margin { aside: Some(aside), ..there.clone() };
+            }
+        }
+        self.deciding.extend(turning.deciding);
+        self
+    }
 }
 
 pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> LoadRows {

@@ -139,11 +139,18 @@ pub fn load_margins(
 
 /// The same with what they say of the states on the way to a torque.
 pub fn load_rows(design: &Design, limits: &Limits, capacities: Capacities, state: &LoadState) -> LoadRows {
-    let mut found = load::rows(design, limits, state);
-    if capacities == Capacities::Wanted {
-        capacity::fill(&mut found.rows, design, limits, state);
+    let rows = |state: &LoadState| {
+        let mut found = load::rows(design, limits, state);
+        if capacities == Capacities::Wanted {
+            capacity::fill(&mut found.rows, design, limits, state);
+        }
+        found
+    };
+    let found = rows(state);
+    match limits.at_speed_rad_s {
+        None => found,
+        Some(speed) => found.or_turning(state.turning(design, speed).map(|turning| rows(&turning))),
     }
-    found
 }
 
 /// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where

@@ -56,7 +56,8 @@ pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, ahead_ra
             Sliding { state, friction, lubricated: Some(lubricated) }
         }
         None => {
-            let state = steady_under(clutch, curve, alpha_max_rad, ahead_rad_s, |_| SlidingContact::dry(by_law));
+            let state =
+                steady_under(clutch, curve, alpha_max_rad, ahead_rad_s, |_| SlidingContact::dry(by_law));
             Sliding { state, friction: by_law, lubricated: None }
         }
     }

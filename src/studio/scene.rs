@@ -95,7 +95,8 @@ pub fn scene_view(
         (prepared.overrun, scenario.kind)
     {
         let carried = scenario.clutch.slides_outside();
-        let (track, other) = if carried { ("outer", free.normal_outer_n) } else { ("inner", free.normal_inner_n) };
+        let (track, other) =
+            if carried { ("outer", free.normal_outer_n) } else { ("inner", free.normal_inner_n) };
         let normal = Unit::Newton.show(other, 3);
         let heat = Unit::Watt.show(free.drag_torque_nm * overrun_rad_s.abs(), 3);
         let on = free.sliding_n > 0.0;

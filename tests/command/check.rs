@@ -548,4 +548,46 @@ fn rows_at_rest_say_what_speed_changes() {
         "{warning}"
     );
     assert!(tight.sheet().text(Screen::default()).contains(&warning));
+    // Held at that speed they say so themselves.
+    let mut turning = tight.design.clone();
+    turning.limits.at_speed_rad_s = Some(12000.0 * std::f64::consts::PI / 30.0);
+    let turning = turning.check(&Follow::nobody()).unwrap();
+    assert_eq!(turning.body.at_speed.as_ref().unwrap().warning(), None);
+    let row = |answer: &sprag_design::answer::CheckAnswer, code: &str| {
+        answer.rows.iter().find(|row| row.code() == code).unwrap().clone()
+    };
+    let lost = row(&turning, "hertz-peak-inner");
+    assert!(!lost.held() && lost.overloaded() && row(&tight, "hertz-peak-inner").held());
+    assert!((lost.left().number() - (curve.end_torque_nm() / most - 1.0)).abs() < 1e-9);
+    assert!(lost.full_name().contains("turning at at_speed_rpm"), "{}", lost.full_name());
+    assert_eq!(row(&turning, "slip:high-10").margin(), row(&tight, "slip:high-10").margin());
+}
+
+/// At a speed that the clutch bears, each row at a torque is that at rest or that of the curve there, whichever is worse, and rotation adds
+/// Timoshenko's hoop stress of a turning ring.
+#[test]
+fn limits_are_held_at_the_speed_of_the_clutch() {
+    let text = std::fs::read_to_string("designs/huang2017-multi-arc.toml").unwrap();
+    let rest = Design::parse(&text, "rest.toml").unwrap();
+    let mut turning = rest.clone();
+    let speed = 6000.0 * std::f64::consts::PI / 30.0;
+    turning.limits.at_speed_rad_s = Some(speed);
+    let [rest, turning] = [rest, turning].map(|design| design.check(&Follow::nobody()).unwrap());
+    let race = &rest.state.curve.statics().elastic.outer_race;
+    let spun = race.rotating_bore_hoop_pa(speed);
+    let curve =
+        WedgeCurve::build(&rest.design.clutch, &rest.design.clutch.profile().unwrap(), speed).unwrap();
+    let (mut spins, mut worse) = (0, 0);
+    for (before, after) in rest.rows.iter().zip(&turning.rows) {
+        assert_eq!(before.code(), after.code());
+        assert!(after.margin() <= before.margin(), "{}", before.code());
+        worse += usize::from(after.margin() < before.margin());
+        if before.code() == "hoop-outer" {
+            let n = curve.at_torque(rest.design.limits.peak_torque_nm.unwrap()).unwrap().normal_outer_n;
+            let wanted = race.hoop_at_track_pa(rest.design.clutch.sprags.count, n) + spun;
+            assert!((after.demand.value().unwrap() / wanted - 1.0).abs() < 1e-9);
+            spins += 1;
+        }
+    }
+    assert!(spins == 1 && worse >= 4 && spun > 1e6, "{spins} {worse} {spun}");
 }

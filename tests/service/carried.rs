@@ -125,7 +125,8 @@ fn what_rides_with_the_outer_race_alone_says_so() {
     let design = design("0", &engagement("300"));
     let scenario = design.scenario("scene").unwrap();
     assert!(prepare(scenario).unwrap().model.carried.is_some());
-    let published = crate::program::run(&["simulate", FILE, "--scenario", "runback", "--method", "published"]);
+    let published =
+        crate::program::run(&["simulate", FILE, "--scenario", "runback", "--method", "published"]);
     let said = stdout(&published) + &String::from_utf8_lossy(&published.stderr);
     assert!(said.contains("the published scheme knows overrun only with sprags that ride"), "{said}");
     assert!(NoScenario::DrivenCage("a run").to_string().contains("a run knows overrun only"));

@@ -21,6 +21,9 @@ pub struct AtSpeedSection {
     pub required_friction_at_rest: Option<f64>,
     /// Hoop stress that rotation alone gives the outer race, MPa.
     pub rotation_hoop_outer_mpa: f64,
+    /// Whether the limits are held at that speed, or a higher one, anyway.
+    #[serde(skip)]
+    is_held_there: bool,
     #[serde(skip)]
     asked_nm: Option<f64>,
     #[serde(skip)]
@@ -58,6 +61,7 @@ impl AtSpeedSection {
             required_friction: curve.as_ref().and_then(friction),
             required_friction_at_rest: friction(&state.curve),
             rotation_hoop_outer_mpa: Unit::Megapascal.from_si(hoop_pa),
+            is_held_there: design.limits.at_speed_rad_s.is_some_and(|held| held >= speed),
             asked_nm,
             end_at_rest_nm: state.curve.end_torque_nm(),
             breaks: rows.iter().filter(breaks).map(Margin::code).collect(),
@@ -66,6 +70,9 @@ impl AtSpeedSection {
 
     /// Whether a limit that is held at rest is not there.
     fn fails(&self) -> bool {
+        if self.is_held_there {
+            return false;
+        }
         let short = self.asked_nm.filter(|nm| *nm <= self.end_at_rest_nm);
         !self.breaks.is_empty() || short.is_some_and(|nm| self.end_torque_nm.is_none_or(|end| end < nm))
     }
@@ -100,7 +107,7 @@ impl AtSpeedSection {
     pub fn warning(&self) -> Option<String> {
         self.fails().then(|| {
             format!(
-                "Warning: rows without a scene are at rest; at {} rpm ({}) {}",
+                "Warning: rows without a scene are at rest; at {0} rpm ({1}) {2}; at_speed_rpm = {0} in [limits] holds them there",
                 significant(self.speed_rpm, 4),
                 self.scenario,
                 self.words()

@@ -120,6 +120,20 @@ fn no_film_row(design: &Design, rows: &[Margin]) -> Option<String> {
     })
 }
 
+/// Which rows are those of the clutch while it turns.
+fn turning(design: &Design, rows: &[Margin]) -> Option<String> {
+    let speed = Unit::Rpm.show(design.limits.at_speed_rad_s?, 4);
+    let codes: Vec<String> = rows.iter().filter(|row| row.turns()).map(Margin::code).collect();
+    Some(match codes.as_slice() {
+        [] => format!(
+            "Rows at nominal and peak torque hold at rest and at {speed} (at_speed_rpm), and none is worse there"
+        ),
+        codes => {
+            format!("Worse at {speed} (at_speed_rpm) than at rest, and shown for there: {}", codes.join(", "))
+        }
+    })
+}
+
 /// What the rows do not say: a friction beyond any known, why steady overruns have no rows, steps and histories that come after
 /// the end of their scene.
 pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
@@ -139,6 +153,7 @@ pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
     much_friction(design)
         .into_iter()
         .chain(overrunning)
+        .chain(turning(design, rows))
         .chain(no_film_row(design, rows))
         .chain(unfelt)
         .collect()

@@ -142,10 +142,7 @@ fn driven_cage(scene: &Ran) -> Option<LeftOut> {
         "what the driven cage does to the sprags",
         "its inertia is the inner race's; its pockets leave sprags under load their play, none to those that it carries, and the spring \
          reacts as on a free cage",
-        &format!(
-            "at most {} of the clutch while A carries",
-            Unit::NewtonMetre.show(spring_nm, 2)
-        ),
+        &format!("at most {} of the clutch while A carries", Unit::NewtonMetre.show(spring_nm, 2)),
     ))
 }
 

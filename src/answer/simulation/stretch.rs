@@ -1,7 +1,7 @@
 //! A stretch of a scene's time as its figures show it: the whole of it, or its first event enlarged.
 
 use super::{HistoryRow, word};
-use crate::dynamics::Mode;
+use crate::dynamics::{Mode, Place};
 use crate::report::{Curve, Dash, Plot, Span, Strip};
 use crate::scenario::Simulation;
 
@@ -87,7 +87,10 @@ impl Stretch {
         let words = ["stick", "slip+", "slip-", "open"];
         let spans = |inner: bool| -> Vec<Span> {
             let ends = s.modes.iter().skip(1).map(|m| m.0).chain([s.t_s]);
-            let state = |mode: &Mode| words.iter().position(|w| *w == word(mode, inner)).unwrap_or(0);
+            let state = |mode: &Mode| match word(mode, inner) {
+                "cage" => 3,
+                other => words.iter().position(|w| *w == other).unwrap_or(0),
+            };
             let within = |t: f64| self.at(t.clamp(self.from_s, self.until_s));
             let span = |((from, mode), until): (&(f64, Mode), f64)| Span {
                 from: within(*from),
@@ -96,10 +99,12 @@ impl Stretch {
             };
             s.modes.iter().zip(ends).map(span).collect()
         };
+        let carried = s.modes.iter().any(|(_, mode)| mode.place == Place::Carried);
+        let apart = if carried { "open, or carried by the cage" } else { "open" };
         Strip {
             title: self.title.clone(),
             range: [self.at(self.from_s), self.at(self.until_s)],
-            states: ["sticks", "slips, race ahead", "slips, race behind", "open"].map(str::to_owned).to_vec(),
+            states: ["sticks", "slips, race ahead", "slips, race behind", apart].map(str::to_owned).to_vec(),
             rows: vec![("inner".to_owned(), spans(true)), ("outer".to_owned(), spans(false))],
         }
     }
@@ -109,6 +114,8 @@ impl Stretch {
 fn change(old: &Mode, new: &Mode) -> Option<&'static str> {
     let changed = |inner: bool| Some((word(old, inner), word(new, inner))).filter(|(a, b)| a != b);
     let what = |(before, after): (&str, &str), inner: bool| match (before, after, inner) {
+        (_, "cage", true) => "the cage takes the sprags along",
+        ("cage", _, true) => "the outer race catches up",
         ("open", ..) => "the inner contact closes",
         (_, "open", _) => "the inner contact opens",
         (_, "stick", true) => "the inner contact sticks",

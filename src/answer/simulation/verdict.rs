@@ -164,7 +164,8 @@ fn on_the_way(s: &Simulation) -> Option<String> {
     if parts.is_empty() {
         return None;
     }
-    let sticks = |mode: &Mode| !matches!(mode.place, Place::Open | Place::Carried) && mode.inner == Grip::Stick;
+    let sticks =
+        |mode: &Mode| !matches!(mode.place, Place::Open | Place::Carried) && mode.inner == Grip::Stick;
     let first_of_last = s.modes.iter().rposition(|(_, mode)| !sticks(mode)).map(|last| last + 1);
     let from = first_of_last.and_then(|k| s.modes.get(k));
     let since = from.map_or(String::new(), |(t_s, _)| format!(", sticks from {} on", time(*t_s)));
