@@ -63,6 +63,7 @@ impl Memory {
     pub fn moved_to(&self, model: &Model) -> Self {
         let place = match self.mode.place {
             Place::Arc(_) => Place::Arc(model.curve.arc_at(self.state[0])),
+            Place::Carried if model.carried.is_none() => Place::Open,
             other => other,
         };
         Self { mode: Mode { place, ..self.mode }, phase_rad: None, ..*self }

@@ -5,6 +5,7 @@ use crate::program::stdout;
 use sprag_design::Design;
 use sprag_design::clutch::Scenario;
 use sprag_design::dynamics::{Grip, Place};
+use sprag_design::element::{self, Beginning, Element};
 use sprag_design::scenario::{NoScenario, Settings, Simulation, Verdict, prepare, simulate};
 
 const FILE: &str = "designs/lift-off-inner.toml";
@@ -118,6 +119,43 @@ fn sprags_that_are_off_let_the_outer_race_overtake_until_they_come_back() {
     let cage = 1000.0 * std::f64::consts::PI / 30.0 + met.state[6];
     // Its slowing down brings them back a little earlier, at a higher speed.
     assert!((cage / lift_off - 1.0).abs() < 0.02, "{cage} {lift_off}");
+}
+
+/// Free races under equal and opposite torques: they meet, wedge, come loose and run on, and nothing of this changes the angular momentum
+/// about the axis.
+#[test]
+fn in_co_simulation_free_races_keep_their_angular_momentum() {
+    let design = design("0", &engagement("300"));
+    let clutch = &design.clutch;
+    let beginning = Beginning { speed_rad_s: 20.0, overrun_rad_s: 20.0, ..Beginning::default() };
+    let settings = element::Settings { tolerance: 1e-9, ..element::Settings::default() };
+    let mut element = Element::new(clutch, &beginning, &settings).unwrap();
+    let momentum = |element: &Element| {
+        let (model, y, mode) = (element.model(), element.memory().state(), element.memory().mode());
+        let p = model.point(mode.place, y[0]);
+        let [alpha, phi, inner, outer] = model.rates(&mode, &p, y);
+        let (s, r) = (&clutch.sprags, &clutch.races);
+        let sprag = s.inertia_kg_m2 * (alpha + phi) + s.mass_kg * p.oc_g * p.oc_g * (phi + 20.0);
+        r.inner_inertia_kg_m2 * inner + r.outer_inertia_kg_m2 * outer + s.count as f64 * sprag
+    };
+    let start = momentum(&element);
+    let mut places = Vec::new();
+    for i in 0..300 {
+        let torque_nm = if i < 150 { 20.0 } else { -20.0 };
+        element.advance(2e-4, [-torque_nm, torque_nm].map(element::Torque::constant)).unwrap();
+        let off = momentum(&element) - start;
+        assert!(off.abs() < 1e-6 * clutch.races.inner_inertia_kg_m2 * 20.0, "{i}: {off:e}");
+        places.push(element.memory().mode().place);
+    }
+    places.dedup_by_key(|place| matches!(place, Place::Arc(_)));
+    assert_eq!(places.first(), Some(&Place::Carried));
+    assert_eq!(places.last(), Some(&Place::Carried));
+    assert!(places.iter().any(|place| matches!(place, Place::Arc(_))), "{places:?}");
+    // Without its cage the clutch goes on with sprags that the outer race takes along.
+    let free = sprag_design::clutch::Clutch { cage: None, ..clutch.clone() };
+    let mut free = element.exchanged(&free).unwrap();
+    free.advance(2e-4, [20.0, -20.0].map(element::Torque::constant)).unwrap();
+    assert_ne!(free.memory().mode().place, Place::Carried);
 }
 
 #[test]
