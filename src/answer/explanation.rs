@@ -1,11 +1,12 @@
 //! What a limit, a key, a variable or another name means.
 
 use crate::clutch::LAWS;
-use crate::design::{LIMIT_KEYS, Objective, did_you_mean};
+use crate::design::{LIMIT_KEYS, NEW_SCENES, OVERRUN, Objective, did_you_mean};
 use crate::file::{
     SCENARIO_KINDS, VARIABLES, allowed, keys_of, paths_of, shape_of, unit_of_key, variable_path,
 };
-use crate::margin::{LIMITS, limit_of};
+use crate::margin::{LIMITS, When, limit_of};
+use crate::scenario::FIGURES;
 use crate::size::PURPOSES;
 
 /// What is known of a name: its kind, and lines of a heading and a text.
@@ -30,6 +31,7 @@ pub fn groups() -> Vec<(&'static str, Vec<String>)> {
         ("contact laws", owned(&mut LAWS.iter().map(|l| l.key))),
         ("kinds of scenario", owned(&mut SCENARIO_KINDS.iter().map(|k| k.name))),
         ("what `new` designs a clutch for", owned(&mut PURPOSES.iter().map(|p| p.name))),
+        ("scenes of the files that `new` writes", owned(&mut NEW_SCENES.iter().map(|s| s.name))),
         ("tables of the design file", keys_of("").into_iter().map(str::to_owned).collect()),
     ]
 }
@@ -44,11 +46,29 @@ pub fn listed(kinds: &[&str]) -> String {
     text
 }
 
-/// What `name` is, if anything; of a kind of names, such as `variables`, those too.
+/// What `name` is, if anything; what else is called so; of a kind of names, such as `variables`, those too.
 pub fn explain(name: &str) -> Option<Explanation> {
-    let of: [fn(&str) -> Option<Explanation>; 8] =
-        [limit, objective, law, scenario_kind, purpose, key, bare, word];
-    let found = of.into_iter().find_map(|kind_of_name| kind_of_name(name));
+    let of: [fn(&str) -> Option<Explanation>; 10] =
+        [limit, objective, law, scenario_kind, purpose, key, bare, scene, figure, word];
+    let mut senses = of.into_iter().filter_map(|kind_of_name| kind_of_name(name));
+    let mut found = senses.next();
+    if let Some(found) = &mut found {
+        // A limit names the objective of its name itself, and a key without its table the one with it.
+        let told = |other: &Explanation| {
+            found.kind == "a limit" && other.kind == OBJECTIVE
+                || found.kind.contains("the design file") && other.kind == KEYS
+        };
+        let others: Vec<Explanation> = senses.filter(|other| !told(other)).collect();
+        let also = |other: Explanation| {
+            let parts = other.lines.iter().filter(|(heading, _)| ["key", "is"].contains(heading));
+            let parts: Vec<&str> =
+                parts.map(|(_, line)| line.as_str()).filter(|line| *line != name).collect();
+            // A key and what it is; else one thing after another.
+            let between = if other.lines.iter().any(|line| line.0 == "is") { ": " } else { "; " };
+            (!parts.is_empty()).then(|| ("also", format!("{}: {}", other.kind, parts.join(between))))
+        };
+        found.lines.extend(others.into_iter().filter_map(also));
+    }
     // The first word of a kind, where that is a plural.
     let of_kind =
         |(kind, _): &(&str, Vec<String>)| name.ends_with('s') && kind.split(' ').next() == Some(name);
@@ -58,6 +78,11 @@ pub fn explain(name: &str) -> Option<Explanation> {
     found.lines.extend(names.chunks(4).map(|row| ("names", row.join(", "))));
     Some(found)
 }
+
+/// What an objective is.
+const OBJECTIVE: &str = "an objective of [optimize]";
+/// What a key is that several tables have.
+const KEYS: &str = "a key of several tables";
 
 fn limit(code: &str) -> Option<Explanation> {
     let limit = limit_of(code)?;
@@ -91,7 +116,7 @@ fn objective(name: &str) -> Option<Explanation> {
     if !o.unit().is_empty() {
         lines.push(("unit", o.unit().to_owned()));
     }
-    Some(Explanation { kind: "an objective of [optimize]", lines })
+    Some(Explanation { kind: OBJECTIVE, lines })
 }
 
 fn law(name: &str) -> Option<Explanation> {
@@ -112,6 +137,25 @@ fn purpose(name: &str) -> Option<Explanation> {
     let purpose = PURPOSES.iter().find(|p| p.name == name)?;
     let is = format!("a clutch that {}", purpose.words);
     Some(Explanation { kind: "what a clutch is for, `new --for`", lines: vec![("is", is)] })
+}
+
+fn scene(name: &str) -> Option<Explanation> {
+    let scene = NEW_SCENES.iter().find(|s| s.name == name)?;
+    let mut lines = vec![("is", scene.words.to_owned()), ("kind", scene.kind.to_owned())];
+    if scene.kind != OVERRUN.kind {
+        let rows = LIMITS.iter().filter(|l| l.when == When::Scene).map(|l| format!("{}:{name}", l.code));
+        lines.push(("in check", rows.collect::<Vec<_>>().join(", ")));
+    }
+    lines.push(("try", format!("`sprag-design simulate FILE --scenario {name}`")));
+    Some(Explanation { kind: "a scene of the files that `new` writes", lines })
+}
+
+/// A figure of a simulation by its line there, or by its key in JSON.
+fn figure(name: &str) -> Option<Explanation> {
+    let label = |f: &&crate::scenario::Figure| f.line.is_some_and(|line| line.label == name);
+    let figure = FIGURES.iter().find(label).or_else(|| FIGURES.iter().find(|f| f.key == name))?;
+    let lines = vec![("is", figure.words.to_owned()), ("in JSON", figure.key.to_owned())];
+    Some(Explanation { kind: "a figure of `simulate`", lines })
 }
 
 /// The guide's page of words and symbols: the one place that has them.
@@ -160,7 +204,7 @@ fn bare(name: &str) -> Option<Explanation> {
                 let is = key(path).and_then(|found| found.lines.into_iter().find(|line| line.0 == "is"));
                 ("key", format!("{path}: {}", is.map_or(String::new(), |line| line.1)))
             };
-            Some(Explanation { kind: "a key of several tables", lines: several.iter().map(one).collect() })
+            Some(Explanation { kind: KEYS, lines: several.iter().map(one).collect() })
         }
     }
 }
@@ -179,8 +223,9 @@ fn key(name: &str) -> Option<Explanation> {
     if path != name {
         lines.push(("key", path.clone()));
     }
-    let text = |key: &str| schema.get(key).and_then(|v| v.as_str()).unwrap_or("").to_owned();
-    lines.push(("is", in_micrometres(&text("description"))));
+    let description = schema.get("description").and_then(|v| v.as_str()).unwrap_or("");
+    let description = description.split_whitespace().collect::<Vec<_>>().join(" ");
+    lines.push(("is", in_micrometres(&description)));
     lines.extend(of_arc(name).map(|words| ("here", words)));
     let key = path.rsplit('.').next()?;
     let of_limit = || LIMIT_KEYS.iter().find(|l| path == format!("limits.{}", l.name)).map(|l| l.unit);
@@ -273,6 +318,19 @@ mod tests {
         }
         let unit = |name: &str| explain(name).unwrap().lines.into_iter().find(|l| l.0 == "unit").unwrap().1;
         assert_eq!((unit("keep_contact_to_rpm").as_str(), unit("gap_peak_mm").as_str()), ("rpm", "mm"));
+        // One name of several things: each of them is told.
+        let swing = explain("swing").unwrap();
+        assert_eq!(swing.kind, "a scene of the files that `new` writes");
+        let lines =
+            swing.lines.iter().map(|(heading, line)| format!("{heading} {line}\n")).collect::<String>();
+        for said in [
+            "is The torque on the outer race swings",
+            "slip:swing, contact:swing",
+            "also a word of this tool: steady overrun, swing, growth",
+        ] {
+            assert!(lines.contains(said), "{said}: {lines}");
+        }
+        assert_eq!(explain("largest Hertz pressure").unwrap().kind, "a figure of `simulate`");
         // A kind of names lists them, beside what the word is in the file.
         for (kind, names) in groups().into_iter().filter(|(kind, _)| !kind.starts_with(['c', 'w'])) {
             let found = explain(kind.split(' ').next().unwrap()).unwrap();
@@ -280,7 +338,10 @@ mod tests {
                 found.lines.iter().filter(|l| l.0 == "names").flat_map(|l| l.1.split(", ")).collect();
             assert_eq!(listed, names, "{kind}");
         }
-        assert!(keys("variables").contains("scales") && explain("contact").unwrap().lines.len() == 6);
+        assert!(
+            keys("variables").contains("scales")
+                && explain("contact").unwrap().lines.iter().filter(|line| line.0 != "also").count() == 6
+        );
         assert!(explain("limits.hertz_peak_mpa").is_some() && explain("nothing").is_none());
         assert!(unknown("hoop-iner").contains("did you mean hoop-inner?"));
     }

@@ -3,7 +3,7 @@
 use super::left_out::LeftOut;
 use super::{Envelope, VERSION, WRITTEN_BY};
 use crate::design::Design;
-use crate::file::{EditError, shown, with_keys, with_spiral, with_sprag};
+use crate::file::{EditError, shown, value_at, with_keys, with_spiral, with_sprag};
 use crate::import::{Arc, Arcs, Drawn, FittedSpiral, FittedSprag, STANDARD_ERROR, SpiralKind};
 use crate::numeric::rounded;
 use crate::report::{Rows, Screen, Table, Unit};
@@ -106,7 +106,7 @@ pub struct ImportedBody<'a> {
     pub spirals: Rows<&'a FittedSpiral>,
     /// The sprag found.
     pub sprags: FoundSprag,
-    /// The design file that gives all else.
+    /// The design file that gives all else; where nobody named one, that of which races, count, spring, friction and steel are guessed.
     pub template: &'a str,
     /// Where the new design is.
     pub written: Option<&'a str>,
@@ -162,6 +162,30 @@ pub fn design_text(
     with_keys(&text, &given.collect::<Vec<_>>())
 }
 
+/// The design file `template` with a count and rims of the races in proportion to tracks of `radii_m`, inner and outer, where these are
+/// given and others.
+///
+/// # Errors
+/// [`EditError`].
+pub fn in_proportion(template: &str, radii_m: [Option<f64>; 2]) -> Result<String, EditError> {
+    let at = |key: &str| value_at(template, key).unwrap_or(0.0);
+    let tracks = ["races.inner_radius_mm", "races.outer_radius_mm"].map(at);
+    let [inner, outer] = [0, 1].map(|k| radii_m[k].map_or(1.0, |m| Unit::Millimetre.from_si(m) / tracks[k]));
+    if [inner, outer] == [1.0; 2] {
+        return Ok(template.to_owned());
+    }
+    let mean = (inner * tracks[0] + outer * tracks[1]) / (tracks[0] + tracks[1]);
+    let rim = |key: &'static str, larger: f64| (key, rounded(at(key) * larger, 4));
+    with_keys(
+        template,
+        &[
+            ("sprags.count", (at("sprags.count") * mean).floor()),
+            rim("races.inner_bore_radius_mm", inner),
+            rim("races.outer_outside_radius_mm", outer),
+        ],
+    )
+}
+
 impl Imported<'_> {
     /// First lines of the new design file; `file`: what was read, `command`: who asked.
     pub fn head(&self, file: &str, command: &str) -> String {
@@ -170,9 +194,13 @@ impl Imported<'_> {
             Some(s) => (s.max_m, s.rms_m, s.kind.name()),
             None => (found.inner.max_m, found.inner.rms_m, "inner arcs"),
         };
+        let (with, rest) = match self.no_template {
+            true => (String::new(), "What else stands here is a guess; limits are to be added"),
+            false => (format!(" on the template {on:?}"), "Races, spring, limits are the template's"),
+        };
         format!(
-            "{WRITTEN_BY} import {VERSION} from {:?} on the template {on:?}\n# by: {}\n# Farthest point {:.2} um from the {what}, {:.2} um \
-             from the outer arc; rms {:.2} and {:.2} um. Races, spring, limits are the template's.\n#\n",
+            "{WRITTEN_BY} import {VERSION} from {:?}{with}\n# by: {}\n# Farthest point {:.2} um from the {what}, {:.2} um \
+             from the outer arc; rms {:.2} and {:.2} um. {rest}.\n#\n",
             file,
             command,
             1e6 * felt(max_m),
@@ -188,7 +216,8 @@ impl Imported<'_> {
         let mut lines = self.drawn.remarks.iter().map(|remark| in_options(remark)).collect::<Vec<_>>();
         if self.no_template {
             lines.push(format!(
-                "no --template: races, count, spring, friction and limits are those of {}",
+                "no --template: races, count, spring, friction and steel are guesses, as {}, and nothing is limited: put in your own, and \
+                 torques and limits (`explain limits`)",
                 self.template
             ));
         }
@@ -290,9 +319,13 @@ impl Imported<'_> {
         for line in self.remarks() {
             let _ = writeln!(people, "{line}");
         }
+        let [behind, template] = match self.no_template {
+            true => [String::new(), String::new()],
+            false => [format!(", on the template {on}"), format!("; template {on}")],
+        };
         let _ = match written {
-            Some(path) => writeln!(people, "written to {}, on the template {on}", shown(path)),
-            None => writeln!(people, "no design written: name a file with -o; template {on}"),
+            Some(path) => writeln!(people, "written to {}{behind}", shown(path)),
+            None => writeln!(people, "no design written: name a file with -o{template}"),
         };
         people
     }

@@ -25,6 +25,9 @@ pub struct CheckArgs {
     /// Write drag torque, contact forces and growth of the outer race against speed as CSV
     #[arg(long, value_name = "PATH")]
     pub overrun_csv: Option<PathBuf>,
+    /// Say how the table is to be read, too
+    #[arg(long)]
+    pub notes: bool,
     /// Refused with what is meant.
     #[arg(long = "overrun-rpm", value_name = "RPM", hide = true, value_parser = speed_of_the_file)]
     pub overrun_rpm: Option<f64>,
@@ -49,7 +52,10 @@ impl Run for CheckArgs {
             if let Some(path) = &self.overrun_csv {
                 context.outputs.write_table(path, &found.body.overrun.table());
             }
-            context.deliver(&found, run_time_s)
+            match self.notes {
+                true => context.deliver_as(&found, CheckAnswer::text_with_notes, run_time_s),
+                false => context.deliver(&found, run_time_s),
+            }
         })
     }
 }

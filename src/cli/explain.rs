@@ -62,9 +62,17 @@ impl Run for ExplainArgs {
             text.push_str(&format!("  {heading:<11} {line}\n"));
         }
         context.answer(&text)?;
-        let lines = found.lines.iter().map(|(heading, line)| ((*heading).to_owned(), json!(line)));
+        // Lines of one heading stand below one another.
+        let mut says: Vec<(&str, String)> = Vec::new();
+        for (heading, line) in &found.lines {
+            match says.iter_mut().find(|(other, _)| other == heading) {
+                Some((_, lines)) => *lines = format!("{lines}\n{line}"),
+                None => says.push((heading, line.clone())),
+            }
+        }
+        let says = says.into_iter().map(|(heading, lines)| (heading.to_owned(), json!(lines)));
         context
-            .object(|| json!({ "name": name, "kind": found.kind, "says": lines.collect::<Map<_, _>>() }))?;
+            .object(|| json!({ "name": name, "kind": found.kind, "says": says.collect::<Map<_, _>>() }))?;
         Ok(Exit::Held)
     }
 }

@@ -32,9 +32,10 @@ A sprag has its origin in C_e, y outward; races and clutch lie about the axis O.
 turns counterclockwise against the outer one. dxf: release 12, closed polylines with bulges for exact arcs, layers SPRAG, RACES,
 CENTRES, CENTRE_LINES, ARC_ENDS, TEXT. step: AP214, prisms with square ends; the clutch is an assembly.
 
-fmu: the clutch between two flanges, torques in, motion out, for co-simulation. The library inside is built by fmu/build.sh
-of the source; it serves both versions of FMI, on the platform that it was built on. A [[drivetrain]] does not go along: it
-is refused, or left out by --clutch-alone.
+fmu: the clutch between two flanges, torques in, motion out, for co-simulation. It needs the library that goes inside: the release
+archive has it beside the program, Python's wheel and `cargo install` have not; fmu/build.sh of the source builds it, with Rust's
+cargo. It serves both versions of FMI, on the platform that it was built on. A [[drivetrain]] does not go along: it is refused, or
+left out by --clutch-alone.
 
 A deck holds one sector, meshed, and needs nothing else. CalculiX: apt-get install calculix-ccx.";
 

@@ -3,9 +3,9 @@
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::{Context, Run, positive};
-use crate::answer::imported::{Imported, design_text, in_options};
+use crate::answer::imported::{Imported, design_text, in_options, in_proportion};
 use crate::design::Design;
-use crate::file::{MOST_TABLE, foreign, read_text};
+use crate::file::{MOST_TABLE, as_guesses, foreign, read_text};
 use crate::import::{DrawnUnit, NoImport, SpiralKind, Wanted, read_dxf, read_points, sprag};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
@@ -25,13 +25,15 @@ The outline is cut at its four corners. The straighter two sides are the flanks,
 beside them stand the two spirals through the same points from first contact on, the curve that keeps the strut angle between these races
 and the logarithmic one, each with its deviation; --spiral writes one of them as [sprags.inner_spiral] in place of the arcs.
 Races, count, materials and limits are those of the template; an optimize table in it is left out, since its variables belong
-to another sprag. A table of arcs as `export --format csv` writes it is read too.
+to another sprag. Without a template the design is named after the file and has no limits, run-out or scenes; races, count, spring,
+friction and steel, as designs/starter.toml has them, are then guesses, and marked so: put in your own, and your limits.
+A table of arcs as `export --format csv` writes it is read too.
 
 How many points: the radius of an arc that spans phi rad, seen by N points with noise s, has the standard error
 26.8 s/(sqrt(N) phi^2). With 5 um of noise and 1.2 rad, 2 um need 2200 points; 0.12 rad would need 22 million. Short arcs are
 not known from a measurement; their standard errors are printed.";
 
-/// The template if none is named.
+/// Where the numbers come from that nobody gives, if no template is named.
 const TEMPLATE: &str = include_str!("../../designs/starter.toml");
 /// Its name.
 const TEMPLATE_NAME: &str = "designs/starter.toml";
@@ -45,7 +47,7 @@ pub struct ImportArgs {
     /// Where to write the design file [default: it is not written]
     #[arg(long, short, value_name = "NEW.toml")]
     pub output: Option<PathBuf>,
-    /// Design file with races, count, materials and limits [default: that of designs/starter.toml]
+    /// Design file with races, count, materials and limits [default: guesses as designs/starter.toml, and no limits]
     #[arg(long, value_name = "FILE")]
     pub template: Option<PathBuf>,
     /// Radius of the inner race's track, mm [default: the template's]
@@ -94,6 +96,33 @@ impl ValueEnum for DrawnUnit {
     }
 }
 
+impl ImportArgs {
+    /// Tracks of the races as given, inner and outer, m.
+    fn radii_m(&self) -> [Option<f64>; 2] {
+        [self.inner_radius, self.outer_radius].map(|mm| mm.map(|mm| 1e-3 * mm))
+    }
+
+    /// What stands round the sprag where nobody says: guesses, under the name of the file that is read, and nothing that the sprag is
+    /// held to.
+    fn surroundings(&self) -> Result<String, Failure> {
+        /// What a starter alone has.
+        const ITS_OWN: [&str; 6] = [
+            "limits",
+            "check",
+            "scenarios",
+            "races.eccentricity",
+            "races.inner_inertia_kg_m2",
+            "races.outer_inertia_kg_m2",
+        ];
+        let name = self.file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let radii =
+            [("races.inner_radius_mm", self.inner_radius), ("races.outer_radius_mm", self.outer_radius)];
+        let given: Vec<&str> = radii.into_iter().filter_map(|(key, mm)| mm.map(|_| key)).collect();
+        let text = as_guesses(TEMPLATE, &name, &ITS_OWN, &given, &format!("as {TEMPLATE_NAME}"));
+        text.and_then(|text| in_proportion(&text, self.radii_m())).map_err(|e| Failure::Failed(e.to_string()))
+    }
+}
+
 impl Run for ImportArgs {
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         let inputs: Vec<&Path> =
@@ -109,10 +138,10 @@ impl Run for ImportArgs {
         let refused = |e| Failure::Malformed(miette::Report::new(e));
         let template = match &self.template {
             Some(path) => Design::read(path),
-            None => Design::parse(TEMPLATE, TEMPLATE_NAME),
+            None => Design::parse(&self.surroundings()?, TEMPLATE_NAME),
         }
         .map_err(refused)?;
-        let radii_m = [self.inner_radius, self.outer_radius].map(|mm| mm.map(|mm| 1e-3 * mm));
+        let radii_m = self.radii_m();
         let started = Instant::now();
         let named = |why: String| Failure::of(&self.file, why);
         let text = read_text(&self.file, MOST_TABLE).map_err(|e| named(e.to_string()))?;

@@ -197,7 +197,7 @@ impl MadeRace {
 
 /// The sprags, enlarged by `scale`, between the races as run, with everything that counts from first contact counted from
 /// the new one: turns of the arcs, the body frame of the centroid. The arc on which first contact then lies comes first.
-/// Flanks keep their distances from the strut line. `None`: no first contact on the profile.
+/// Flanks stay where they are on the body. `None`: no first contact on the profile, or none beside the flanks.
 fn placed(made: &Races, run: &Races, sprags: &Sprags, scale: f64) -> Option<(Sprags, f64)> {
     let r_e = sprags.outer_radius_m;
     let profile = sprags.profile(made).ok()?;
@@ -211,6 +211,14 @@ fn placed(made: &Races, run: &Races, sprags: &Sprags, scale: f64) -> Option<(Spr
         let turn = rotation - (beta - profile.beta0_rad);
         (turn < arc.until_rad).then_some((k, distance, rotation, turn))
     })?;
+    let flanks = match sprags.flanks {
+        Some(made) => {
+            // The races as a sprag sees them that has not grown.
+            let [inner_m, outer_m] = [run.inner_radius_m, run.outer_radius_m].map(|m| m / scale);
+            Some(profile.reseated(0.0, 0.0, inner_m, outer_m).ok()?.flanks(&profile, &made)?)
+        }
+        None => None,
+    };
     let (sin, cos) = rotation.sin_cos();
     let [x, y] = sprags.centroid_m.map(|c| scale * c);
     let inner_arcs = sprags.inner_arcs.iter().skip(first);
@@ -225,7 +233,7 @@ fn placed(made: &Races, run: &Races, sprags: &Sprags, scale: f64) -> Option<(Spr
             .map(|a| InnerArc { radius_m: scale * a.radius_m, until_rad: a.until_rad - turn })
             .collect(),
         spiral: sprags.spiral.map(|s| s.moved(scale, turn)),
-        flanks: sprags.flanks.map(|f| Flanks { rear_m: scale * f.rear_m, front_m: scale * f.front_m, ..f }),
+        flanks: flanks.map(|f| Flanks { rear_m: scale * f.rear_m, front_m: scale * f.front_m, ..f }),
         ..sprags.clone()
     };
     Some((sprags, turn))
@@ -236,7 +244,7 @@ fn check_outline(races: &Races, sprags: &Sprags) -> Result<(), NotRunning> {
     let Some(flanks) = sprags.flanks else { return Ok(()) };
     let gap = NotRunning::Gap { run_m: races.outer_radius_m - races.inner_radius_m };
     let profile = sprags.profile(races).map_err(|_| gap)?;
-    let outline = Outline::new(&profile, flanks.rear_m, flanks.front_m).map_err(NotRunning::Outline)?;
+    let outline = Outline::closed(&profile, &flanks).map_err(NotRunning::Outline)?;
     let clear_m = clearance_m(&outline, profile.outer_centre_distance_m, 0.0, sprags.count);
     if clear_m > 0.0 { Ok(()) } else { Err(NotRunning::Neighbours { overlap_m: -clear_m }) }
 }

@@ -7,14 +7,53 @@ use crate::material::Steel;
 /// Box of the variables of a new design file, r_i1 and e_1, over their values there.
 pub const BOX: [[f64; 2]; 2] = [[0.9, 1.1], [0.8, 1.2]];
 
-/// A scene of a new design file beside the two that every one has.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DraftScene {
+/// A scene as new design files have it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NewScene {
     /// Name.
     pub name: &'static str,
     /// Kind, as the file names it.
     pub kind: &'static str,
-    /// What it stands for: a comment line without its #.
+    /// What happens.
+    pub words: &'static str,
+}
+
+/// Nominal torque, in every new file.
+pub const RATED_STATIC: NewScene =
+    NewScene { name: "rated-static", kind: "static", words: "Nominal torque, steady." };
+/// A step of torque, in every new file.
+pub const RATED_STEP: NewScene = NewScene {
+    name: "rated-step",
+    kind: "transient",
+    words: "A step of torque on the inner race; it swings as far beyond as the step is high: nominal torque at the crest.",
+};
+/// A torque that swings.
+pub const SWING: NewScene = NewScene {
+    name: "swing",
+    kind: "torsional-excitation",
+    words: "The torque on the outer race swings, up to nominal torque.",
+};
+/// From overrun into engagement.
+pub const ENGAGE: NewScene = NewScene {
+    name: "engage",
+    kind: "engagement",
+    words: "From overrun into engagement, up to the crest of the torque. Shown only.",
+};
+/// Steady overrun.
+pub const OVERRUN: NewScene = NewScene {
+    name: "overrun",
+    kind: "overrun",
+    words: "Steady overrun: both races at constant speeds, the sprags sliding.",
+};
+/// All of them.
+pub const NEW_SCENES: [NewScene; 5] = [RATED_STATIC, RATED_STEP, SWING, ENGAGE, OVERRUN];
+
+/// A scene of a new design file beside the two that every one has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DraftScene {
+    /// Name and kind.
+    pub scene: NewScene,
+    /// What it stands for here: a comment line without its #.
     pub why: String,
     /// Key, value in the file's unit, where the value comes from.
     pub keys: Vec<(&'static str, f64, &'static str)>,

@@ -10,7 +10,10 @@ mod objective;
 mod units;
 mod which;
 
-pub use draft::{BOX, Draft, DraftScene, KINETIC_SHARE};
+pub use draft::{
+    BOX, Draft, DraftScene, ENGAGE, KINETIC_SHARE, NEW_SCENES, NewScene, OVERRUN, RATED_STATIC, RATED_STEP,
+    SWING,
+};
 pub(crate) use limits::LimitsFile;
 pub use limits::{LIMIT_KEYS, LimitKey, Limits};
 pub use objective::{Link, Objective, Optimize, OptimizeVariable, multiple};

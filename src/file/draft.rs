@@ -3,7 +3,7 @@
 //! In: [`Draft`], SI. Out: a complete design file, in the file's units, each value with its source. Absent: how the lengths
 //! were found, whether they make a clutch (parse it). Equations: none.
 
-use crate::design::{BOX, Draft, DraftScene, KINETIC_SHARE, rpm};
+use crate::design::{BOX, Draft, DraftScene, KINETIC_SHARE, NewScene, RATED_STATIC, RATED_STEP, rpm};
 use crate::numeric::rounded;
 
 impl Draft {
@@ -62,7 +62,7 @@ impl Draft {
             }
         };
         let checked: String =
-            self.scenes.iter().filter(|s| s.checked).map(|s| format!(", \"{}\"", s.name)).collect();
+            self.scenes.iter().filter(|s| s.checked).map(|s| format!(", \"{}\"", s.scene.name)).collect();
         let scenes: String = self.scenes.iter().map(DraftScene::to_toml).collect();
         let life = self.engagements.map_or(String::new(), |count| {
             format!(
@@ -115,17 +115,17 @@ gap_peak_mm = {gap_peak}            # GMN 9050: 8.60 mm of a gap of 8.33, in pro
 slip_margin = 0.1                   # choice
 {contact}
 [check]
-scenarios = ["rated-static", "rated-step"{checked}]
+scenarios = ["{static_name}", "{step_name}"{checked}]
 
 [[scenarios]]
-name = "rated-static"
-kind = "static"
+name = "{static_name}"
+kind = "{static_kind}"
 torque_nm = {nominal}
 
-# A step of torque on the inner race; it swings as far beyond as the step is high: nominal torque at the crest.
+# {step_words}
 [[scenarios]]
-name = "rated-step"
-kind = "transient"
+name = "{step_name}"
+kind = "{step_kind}"
 preload_nm = {preload}
 torque_step_nm = {torque_step}
 step_time_s = {step_time}
@@ -135,7 +135,7 @@ speed_rpm = {speed}
 {scenes}{life}
 [optimize]
 objective = "slip-margin"
-scenarios = ["rated-static", "rated-step"{checked}]
+scenarios = ["{static_name}", "{step_name}"{checked}]
 variables = [
   {{ name = "r_i1_mm", min = {ri_min}, max = {ri_max} }},
   {{ name = "centre_distance_mm", min = {e_min}, max = {e_max} }},
@@ -143,6 +143,11 @@ variables = [
 seed = 1
 "#,
             name = self.name,
+            static_name = RATED_STATIC.name,
+            static_kind = RATED_STATIC.kind,
+            step_name = RATED_STEP.name,
+            step_kind = RATED_STEP.kind,
+            step_words = RATED_STEP.words,
             count = self.count,
             until = digits(self.until_rad, 4),
             width = mm(self.width_m),
@@ -174,7 +179,7 @@ impl DraftScene {
             if from.is_empty() { format!("{line}\n") } else { format!("{line:<40} # {from}\n") }
         };
         let keys: String = self.keys.iter().map(key).collect();
-        let Self { name, kind, why, .. } = self;
+        let Self { scene: NewScene { name, kind, .. }, why, .. } = self;
         format!("\n# {why}\n[[scenarios]]\nname = \"{name}\"\nkind = \"{kind}\"\n{keys}")
     }
 }

@@ -18,6 +18,7 @@ mod edit;
 mod findings;
 mod form;
 mod geometry;
+mod guessed;
 mod history;
 mod inputs;
 mod life_file;
@@ -45,6 +46,7 @@ pub use edit::{
     with_sprag, with_values,
 };
 pub use form::DesignForm;
+pub use guessed::as_guesses;
 pub use history::is_history;
 pub use inputs::{Input, inputs, unit_of_path};
 pub use notes::with_notes;

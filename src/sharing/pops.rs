@@ -99,7 +99,7 @@ impl Unlike<'_> {
         loop {
             left = left.without(next);
             let after = left.carrying(Asked::Torque(torque_nm), turned_rad);
-            losses.push(Loss { lost: next, left: after.clone() });
+            losses.push(Loss::new(next, &left, after.clone()));
             match after {
                 Err(NotShared::End(another, _)) => next = another,
                 Err(_) => return (losses, None),

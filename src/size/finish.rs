@@ -10,12 +10,16 @@ use crate::margin::{
     Capacities, KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
 };
 use crate::numeric::rounded;
-use crate::profile::Outline;
+use crate::profile::{Outline, Profile};
 use crate::scenario::Settings;
 use std::f64::consts::TAU;
 
 /// Margin that a first design keeps on every limit: a choice, so that rounding and the optimiser find room.
 pub(super) const KEPT: f64 = 0.02;
+
+/// By how much one race of a first design may be warmer than the other without that the sprags lose their surface below peak torque, K: a
+/// choice.
+pub const WARMER_K: f64 = 30.0;
 
 /// Largest drag of the spring in overrun over the nominal torque.
 const DRAG: f64 = 0.02;
@@ -85,7 +89,8 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
         // A sprag is no needle: at least a fifth of the race space to either side, where the arcs reach that far.
         let space = draft.races_m[2] - draft.races_m[1];
         let least_half = (0.2 * space).min(0.8 * draft.inner_radius_m);
-        let (until_rad, [rear, front]) = closed(&design.clutch, peak.contact_turn_rad)?;
+        let expansion_per_k = draft.steel.expansion_per_k;
+        let (until_rad, [rear, front]) = closed(&design.clutch, peak.contact_turn_rad, expansion_per_k)?;
         draft.until_rad = until_rad;
         draft.flanks_m = Some((rear.max(least_half), front.max(least_half)));
         let stiffness = nominal.k_secant_nm_per_rad;
@@ -131,8 +136,9 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
 }
 
 /// Turn at which the profile ends, and flanks, rear and front, m, for a contact that turns by `turn_rad` at peak torque. Of the turn a third,
-/// and a little for small ones, is left; less where no flank would close all sprags of the box that the file gives the optimiser.
-fn closed(clutch: &Clutch, turn_rad: f64) -> Result<(f64, [f64; 2]), Decider> {
+/// and a little for small ones, is left; less where no flank would close all sprags of the box that the file gives the optimiser, but no
+/// less than what an outer race warmer by [`WARMER_K`] takes: its gap is wider, and the sprags begin further on.
+fn closed(clutch: &Clutch, turn_rad: f64, expansion_per_k: f64) -> Result<(f64, [f64; 2]), Decider> {
     const LEFT: [f64; 5] = [1.3, 1.25, 1.2, 1.15, 1.1];
     /// Of the box: all, else a part about the sprag.
     const SHARES: [f64; 4] = [1.0, 0.6, 0.3, 0.1];
@@ -158,7 +164,13 @@ fn closed(clutch: &Clutch, turn_rad: f64) -> Result<(f64, [f64; 2]), Decider> {
         let open = |[need, reach]: &[f64; 2]| need * (1.0 + 2.0 * WITHIN) < *reach;
         narrowed.iter().all(open).then_some(narrowed)
     };
-    let end = |left: f64| left * turn_rad + 0.02;
+    let races = &clutch.races;
+    let wider_m = expansion_per_k * WARMER_K * races.outer_radius_m;
+    let wide =
+        |profile: Profile| profile.reseated(0.0, 0.0, races.inner_radius_m, races.outer_radius_m + wider_m);
+    let begins_rad = clutch.profile().and_then(wide).map_err(Decider::words)?.turn_rad;
+    let least = (1.0 + KEPT) * turn_rad + begins_rad;
+    let end = |left: f64| (left * turn_rad + 0.02).max(least);
     let at = |share: f64| LEFT.into_iter().find_map(|left| Some((end(left), window(end(left), share)?)));
     let found = SHARES.into_iter().find_map(at);
     if let Some((until_rad, window)) = found {
@@ -282,6 +294,9 @@ fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Ve
             "Race space {space_mm} mm in the proportions of a maker's 8.33 mm series, as wide as its limits ask."
         ),
         format!("{NOT_OPTIMISED}{left}: check, then optimize."),
+        format!(
+            "Profile and flanks leave room for races of which one is {WARMER_K} K warmer than the other (choice): overrun tells how warm they get."
+        ),
     ];
     if let Some(purpose) = wanted.purpose {
         lines.push(format!("For: {}, {}.", purpose.name, purpose.words));

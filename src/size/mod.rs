@@ -15,7 +15,7 @@ mod search;
 
 pub use asked::{ASKED, Unnamed, WishNumber, WishUnit, asked};
 pub use decider::Decider;
-pub use finish::{Drag, Made, NOT_OPTIMISED};
+pub use finish::{Drag, Made, NOT_OPTIMISED, WARMER_K};
 pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
 pub use requirements::{
     BadRequirement, FRICTION, PEAK_OVER_NOMINAL, Requirements, TorqueSwing, Wish, torques_nm,

@@ -1,7 +1,7 @@
 //! What clutches are for, and what is taken of each where nobody says: every number once, with its source or "guess".
 
 use super::{Requirements, TorqueSwing};
-use crate::design::{DraftScene, rad_s, rpm};
+use crate::design::{DraftScene, ENGAGE, OVERRUN, SWING, rad_s, rpm};
 use crate::numeric::rounded;
 use std::f64::consts::TAU;
 
@@ -194,9 +194,8 @@ impl Purpose {
             let omega = TAU * frequency_hz;
             let abutment = SOFT * stiffness_nm_per_rad.min(inner_inertia_kg_m2 * omega * omega);
             scenes.push(DraftScene {
-                name: "swing",
-                kind: "torsional-excitation",
-                why: "The torque on the outer race swings, up to nominal torque.".to_owned(),
+                scene: SWING,
+                why: SWING.words.to_owned(),
                 keys: vec![
                     ("preload_nm", wanted.torque_nm - amplitude, "nominal torque less the amplitude"),
                     ("amplitude_nm", amplitude, from[0]),
@@ -212,9 +211,8 @@ impl Purpose {
         // Until the reversed drive has come to rest, then past the crest.
         let stopping_s = inner_inertia_kg_m2 * rad_s(self.free_run_rpm.value) / reversing;
         scenes.push(DraftScene {
-            name: "engage",
-            kind: "engagement",
-            why: "From overrun into engagement, up to the crest of the torque. Shown only.".to_owned(),
+            scene: ENGAGE,
+            why: ENGAGE.words.to_owned(),
             keys: vec![
                 ("free_run_rpm", self.free_run_rpm.value, self.free_run_rpm.from),
                 ("reversing_torque_nm", reversing, self.reversing_share.from),
@@ -230,8 +228,7 @@ impl Purpose {
         });
         if inner != outer {
             scenes.push(DraftScene {
-                name: "overrun",
-                kind: "overrun",
+                scene: OVERRUN,
                 why: format!(
                     "Steady overrun: inner race at {} rpm ({}), outer race at {} rpm ({}).",
                     rounded(inner, 7),

@@ -311,7 +311,7 @@ fn an_overloaded_scene_is_called_that() {
 
 #[test]
 fn a_steady_overrun_has_no_slip_row_and_says_why() {
-    let text = stdout(&run(&["check", "designs/huang2017-bench.toml"]));
+    let text = stdout(&run(&["check", "designs/huang2017-bench.toml", "--notes"]));
     assert!(!text.contains("slip:overrun") && !text.contains("contact:overrun"), "{text}");
     assert!(
         text.contains("No slip or contact row for overrun: in steady overrun the inner contact slides"),
@@ -466,8 +466,40 @@ fn overrun_is_that_of_the_speeds_that_the_design_names() {
 /// Where nominal and peak torque have pressures of their own, a line says why.
 #[test]
 fn two_allowables_of_one_pressure_are_explained_once() {
-    let said = stdout(&run(&["check", "designs/huang2017-multi-arc.toml", "--quiet"]));
+    let said = stdout(&run(&["check", "designs/huang2017-multi-arc.toml", "--quiet", "--notes"]));
     assert_eq!(said.matches("Hertz pressure, two allowables: 4200 MPa").count(), 1, "{said}");
+}
+
+/// The terminal ends with what this design is to be told, warnings before notes; how the table is to be read is asked for, and JSON has both.
+#[test]
+fn notes_of_every_design_are_asked_for() {
+    let more_friction =
+        ["check", "designs/huang2017-multi-arc.toml", "--quiet", "--set", "friction.static=0.25"];
+    let said = |more: &[&str]| stdout(&run(&[&more_friction[..], more].concat()));
+    let (short, long) = (said(&[]), said(&["--notes"]));
+    let behind = |text: &str| -> Vec<String> {
+        let lines = text.lines().skip_while(|line| !line.contains("HELD: "));
+        lines
+            .skip_while(|line| !line.starts_with("Torque capacity, peak"))
+            .skip(1)
+            .map(str::to_owned)
+            .collect()
+    };
+    let (short, long) = (behind(&short), behind(&long));
+    let last = short.last().unwrap();
+    assert!(
+        last.starts_with("How to read the table, ") && last.ends_with(" notes: --notes or --json"),
+        "{last}"
+    );
+    assert_eq!(short[..short.len() - 1], long[..short.len() - 1]);
+    assert!(short[0].starts_with("Warning: a friction of 0.25"), "{short:?}");
+    let notes = ["Reached at: ", "Slip rows: ", "Shown: ", "Hertz pressure, two allowables: "];
+    for note in notes {
+        let has = |lines: &[String]| lines.iter().any(|line| line.starts_with(note));
+        assert!(has(&long) && !has(&short), "{note}: {long:?}");
+    }
+    let json = json(&run(&[&more_friction[..], &["--json"]].concat()));
+    assert_eq!(json["notes"], serde_json::json!(long));
 }
 
 /// A speed of overrun is no flag of these commands: they say where it belongs.
@@ -553,7 +585,7 @@ fn rows_at_rest_say_what_speed_changes() {
     turning.limits.at_speed_rad_s = Some(12000.0 * std::f64::consts::PI / 30.0);
     let turning = turning.check(&Follow::nobody()).unwrap();
     assert_eq!(turning.body.at_speed.as_ref().unwrap().warning(), None);
-    let row = |answer: &sprag_design::answer::CheckAnswer, code: &str| {
+    let row = |answer: &sprag_design::answer::check::CheckAnswer, code: &str| {
         answer.rows.iter().find(|row| row.code() == code).unwrap().clone()
     };
     let lost = row(&turning, "hertz-peak-inner");

@@ -65,7 +65,13 @@ fn a_unit_holds_description_library_and_design() {
     for path in [&library, &unit] {
         let _ = std::fs::remove_file(path);
     }
-    refused(SINGLE, &[], "found no such file; build it by fmu/build.sh");
+    // What helps: where it is, where not, how it is built, and what to say then.
+    let (_, words) = export(SINGLE, &[]);
+    for help in
+        ["found no such file", "Python's wheel has not", "`fmu/build.sh`", "`--library target/release/"]
+    {
+        assert!(words.contains(help), "{help}: {words}");
+    }
     std::fs::write(&library, "sprag-design-fmu library 0.0.1;").unwrap();
     refused(SINGLE, &[], "found no library of sprag-design");
     std::fs::write(&library, &ours).unwrap();

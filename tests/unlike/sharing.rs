@@ -1,12 +1,13 @@
 //! Sprags one by one: alike they are the curve, unlike they are what a hand calculation says.
 
 use sprag_design::answer::Answer;
+use sprag_design::answer::sharing::SharingAnswer;
 use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, Sharing, Standing, TrackWave};
 use sprag_design::race::Race;
 use sprag_design::wedge::SpragDeviation;
 
-use sprag_design::sharing::{Asked, Shared, Turn, Unlike};
-use sprag_design::{Clutch, Design, Material, WedgeCurve};
+use sprag_design::sharing::{Asked, NotShared, Shared, Turn, Unlike};
+use sprag_design::{Clutch, Design, EndReason, Material, WedgeCurve};
 use std::f64::consts::TAU;
 
 fn clutch(file: &str) -> Clutch {
@@ -466,4 +467,71 @@ fn one_sprag_on_a_free_race_and_a_torque_lost_in_rounding_have_their_words() {
     let whole = Design::parse(&text, "whole").unwrap();
     let said = whole.sharing(Some(1e-9)).unwrap().verdict();
     assert!(said.contains("rounding hides it"), "{said}");
+}
+
+/// What the verdict says of sprags that fail is what their table says, whatever ends it.
+#[test]
+fn the_words_of_losses_are_those_of_their_table() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/unlike-sprags.toml");
+    let mut design = Design::read(path.as_ref()).unwrap();
+    design.sharing.as_mut().unwrap().friction_within = 0.0;
+    let rows = |answer: &SharingAnswer<'_>| -> Vec<String> {
+        let json = serde_json::to_value(answer.envelope(0.0).body).unwrap();
+        json["losses"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|row| row["verdict"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    let whole = design.sharing(Some(40.0)).unwrap();
+    let (held, last) = (whole.losses.len() - 1, whole.losses.last().unwrap());
+    assert!(held > 2 && rows(&whole)[..held].iter().all(|v| v == "held") && rows(&whole)[held] == "NOT HELD");
+    assert!(last.left.is_ok() && last.slips.is_none(), "{last:?}");
+    let many = format!(
+        "; {held} may fail, each time the most pressed one, and the others still hold; after one more"
+    );
+    let verdict = whole.verdict();
+    assert!(verdict.contains(&format!("{many}, the others would be pressed beyond that")), "{verdict}");
+    assert_eq!(whole.may_be_lost(), Some(held));
+
+    // The same with other ends of the last row, after many, one and none.
+    let end = NotShared::End(4, EndReason::OffProfile);
+    for (left, slips, known, said) in [
+        (Err(NotShared::NoBalance), None, false, "is not known: no balance of their forces was found"),
+        (Err(end), None, true, "the others would not carry it: sprag 5 comes to its end first"),
+        (last.left.clone(), Some(2), true, "sprag 3 would slip"),
+    ] {
+        for count in [held, 1, 0] {
+            let mut answer = whole.clone();
+            answer.losses.drain(count..held);
+            let row = answer.losses.last_mut().unwrap();
+            (row.left, row.slips) = (left.clone(), slips);
+            let verdict = answer.verdict();
+            let borne = match count {
+                0 => String::new(),
+                1 => "; if the most pressed one failed, the others would still hold; ".to_owned(),
+                _ => format!("; {count} may fail, "),
+            };
+            assert!(verdict.contains(&borne) && verdict.contains(said), "{count}: {verdict}");
+            assert_eq!(verdict.contains("would still hold"), count == 1, "{verdict}");
+            assert_eq!(answer.may_be_lost(), known.then_some(count), "{verdict}");
+            let rows = rows(&answer);
+            assert!(rows[..count].iter().all(|v| v == "held") && rows[count] != "held", "{rows:?}");
+        }
+    }
+
+    // Friction between what the whole clutch and what the others need: they slip long before they are pressed.
+    let needs = |shared: &Shared| shared.worst(|l| l.required_friction()).1;
+    let [before, after] =
+        [needs(&whole.turned.as_ref().unwrap()[0]), needs(whole.losses[0].left.as_ref().unwrap())];
+    assert!(after > 1.005 * before, "{before} {after}");
+    design.clutch.friction.static_ = 0.5 * (before + after);
+    let smooth = design.sharing(Some(40.0)).unwrap();
+    assert_eq!((smooth.may_be_lost(), rows(&smooth)), (Some(0), vec!["slips".to_owned()]));
+    let verdict = smooth.verdict();
+    assert!(
+        verdict.contains("if the most pressed one failed, sprag") && verdict.contains("would slip"),
+        "{verdict}"
+    );
 }

@@ -7,7 +7,7 @@ use sprag_design::import::{
     DrawnUnit, FittedSprag, NoImport, SpiralKind, Wanted, read_dxf, read_points, sprag,
 };
 use sprag_design::profile::Segment;
-use sprag_design::{Design, Outline};
+use sprag_design::{Design, Limits, Outline};
 use std::fmt::Write;
 
 type Point = Vector2<f64>;
@@ -349,6 +349,49 @@ fn the_command_writes_a_design_that_is_checked() {
         let text = String::from_utf8(output.stderr).unwrap();
         assert!(text.contains(word), "{text}");
     }
+}
+
+/// Without a template nothing is held that nobody asked for, and what is a guess says so.
+#[test]
+fn a_design_without_a_template_is_its_own() {
+    let folder = Folder::new();
+    let (drawing, new) = (folder.path("sprag 7.dxf"), folder.path("new.toml"));
+    assert_eq!(
+        run(&["export", TEMPLATE, "--format", "dxf", "-o", &drawing, "--quiet"]).status.code(),
+        Some(0)
+    );
+    let ran = run(&["import", &drawing, "--inner-radius", "30", "-o", &new]);
+    assert_eq!(ran.status.code(), Some(0));
+    let said = stdout(&ran);
+    assert!(said.contains("are guesses, as designs/starter.toml, and nothing is limited"), "{said}");
+    let (back, given) = (Design::read(new.as_ref()).unwrap(), Design::read(TEMPLATE.as_ref()).unwrap());
+    assert_eq!((back.name.as_str(), &back.limits), ("sprag 7", &Limits::default()));
+    assert!(back.scenarios.is_empty() && back.clutch.races.eccentricity.is_none());
+    assert_eq!(back.clutch.sprags.count, given.clutch.sprags.count);
+    let guessed = |key: &str| {
+        let line = back.source.lines().find(|line| line.starts_with(&format!("{key} = "))).unwrap();
+        line.ends_with("# guess, as designs/starter.toml")
+    };
+    for (key, guess) in [
+        ("count", true),
+        ("inner_radius_mm", false),
+        ("outer_radius_mm", false),
+        ("inner_bore_radius_mm", true),
+        ("static", true),
+    ] {
+        assert_eq!(guessed(key), guess, "{key}: {}", back.source);
+    }
+    assert!(!back.source.contains("starter clutch"), "{}", back.source);
+    // What needs no limit: whether its sprags bite.
+    let checked = json(&run(&["check", &new, "--json"]));
+    let codes: Vec<&str> =
+        checked["margins"].as_array().unwrap().iter().map(|row| row["code"].as_str().unwrap()).collect();
+    assert_eq!(codes, ["re-engagement"]);
+    // Other races: count and rims in proportion.
+    let args = ["import", &drawing, "--inner-radius", "20", "--outer-radius", "28.33", "-o", &new];
+    assert_eq!(run(&args).status.code(), Some(0));
+    let back = Design::read(new.as_ref()).unwrap().clutch;
+    assert_eq!((back.sprags.count, back.races.inner_bore_radius_m), (18, 8e-3));
 }
 
 /// Points in order with the same noise for every one of them, seeded.

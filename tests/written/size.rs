@@ -9,7 +9,9 @@ use sprag_design::design::Design;
 use sprag_design::margin::{Capacities, load_margins, load_state, margins};
 use sprag_design::material::steel;
 use sprag_design::scenario::{Settings, prepare};
-use sprag_design::size::{Decider, NoSize, PURPOSES, Requirements, Sized, Tried, Wish, purpose, size};
+use sprag_design::size::{
+    Decider, NoSize, PURPOSES, Requirements, Sized, Tried, WARMER_K, Wish, purpose, size,
+};
 
 fn stderr(output: &std::process::Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
@@ -76,6 +78,31 @@ fn every_size_of_the_grid_holds_its_own_file() {
 
 /// Sprags a millimetre shorter, races with them, keep less than a first design is to keep; and of the race spaces that hold
 /// everything the one with the smallest ring is taken.
+/// Overrun warms one race more than the other: the sprags are still between them then, and do not come to the end of their profile below
+/// peak torque.
+#[test]
+fn a_first_design_is_a_clutch_while_one_race_is_warmer() {
+    let helicopter = Wish { purpose: purpose("helicopter"), peak_nm: Some(1400.0), ..wish(46.0, 620.0) };
+    let large = ask(300.0, 60_000.0, 100.0, 1.5, 0.13);
+    for wanted in [helicopter.requirements(), ask(40.0, 300.0, 0.0, 2.0, 0.11), large] {
+        let design = sized(&wanted).unwrap().made.design;
+        assert!(design.source.contains(&format!("one is {WARMER_K} K warmer than the other (choice)")));
+        for (inner_c, outer_c) in [(60.0 + WARMER_K, 60.0), (60.0, 60.0 + WARMER_K), (120.0, 60.0)] {
+            let values = [
+                ("thermal.inner_race_c", inner_c),
+                ("thermal.sprags_c", 0.5 * (inner_c + outer_c)),
+                ("thermal.outer_race_c", outer_c),
+            ];
+            let warm =
+                design.with_values(&values).unwrap_or_else(|why| panic!("{wanted:?} {values:?}: {why}"));
+            let state = load_state(&warm).unwrap();
+            let rows = load_margins(&warm, &warm.limits, Capacities::LeftOut, &state);
+            let end = rows.iter().find(|r| r.code() == "end-of-profile").unwrap();
+            assert!(end.held(), "{wanted:?} {values:?}: {end:?}");
+        }
+    }
+}
+
 #[test]
 fn the_width_is_the_shortest_that_the_limits_allow() {
     let ask = ask(40.0, 1000.0, 0.0, 1.3, 0.11);

@@ -281,6 +281,8 @@ class Check(_Common):
     """Radii as made and as run; ``None``: the races run as made."""
     run_out: dict[str, Any] | None
     """Load round the circumference; ``None``: the design names no eccentricity."""
+    notes: tuple[str, ...]
+    """What is said of this design beside the rows, warnings first, then how the rows are to be read."""
 
     def margin(self, code: str) -> Margin:
         """The row of that code.
@@ -1385,7 +1387,7 @@ class Sharing(_Common):
     allowed_mpa: float | None
     """Hertz pressure that is allowed, MPa."""
     may_be_lost: int | None
-    """How many sprags may be lost before the limit is broken."""
+    """How many sprags may be lost before the limit is broken or one slips; ``None``: not known, at least as many as ``losses`` hold."""
     end_torque_nm: float | None
     """Torque up to which the clutch carries, N m."""
     end_reason: str | None

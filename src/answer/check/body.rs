@@ -173,6 +173,8 @@ pub struct CheckBody {
     pub running: Option<running::RunningSection>,
     /// Load round the circumference; null: the design names no eccentricity.
     pub run_out: Option<run_out::RunOutSection>,
+    /// What is said of this design beside the rows, warnings first, then how the rows are to be read; a line each.
+    pub notes: Vec<String>,
 }
 
 impl CheckBody {
@@ -201,6 +203,7 @@ impl CheckBody {
             at_speed: source.at_speed,
             running: source.running,
             run_out: source.run_out,
+            notes: Vec::new(),
         }
     }
 

@@ -81,6 +81,11 @@ impl Serialize for CheckAnswer {
 }
 
 impl CheckAnswer {
+    /// [`Answer::text`] with notes on how the table is to be read.
+    pub fn text_with_notes(&self, screen: Screen) -> String {
+        text::text(self, screen, true)
+    }
+
     /// The same answer as a design sheet: a dimensioned drawing first, and all inputs.
     pub fn sheet(&self) -> DesignSheet<'_> {
         DesignSheet(self)
@@ -104,7 +109,7 @@ impl Answer for CheckAnswer {
     }
 
     fn text(&self, screen: Screen) -> String {
-        text::text(self, screen)
+        text::text(self, screen, false)
     }
 
     fn page(&self, provenance: &Provenance) -> Page {
@@ -227,7 +232,8 @@ impl Design {
             scenario_margins,
             hertz_at_junctions_relative: straddling_error(&self.clutch),
         };
-        let body = CheckBody::new(&rows, source);
+        let mut body = CheckBody::new(&rows, source);
+        body.notes = text::Notes::of(self, &rows, &body).all();
         Ok(CheckAnswer { design: self.clone(), state, rows, static_rows, scenes, errors, left_out, body })
     }
 }

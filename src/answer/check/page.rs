@@ -1,6 +1,6 @@
 //! The margin check as a page.
 
-use super::text::{asides, pressures};
+use super::text::beside_the_rows;
 use super::{CheckAnswer, charts, is_beyond, margin_text, people_table, sections};
 use crate::answer::page::{drawing, half, opened, pose_at_rest};
 use crate::answer::{Answer, Provenance};
@@ -48,7 +48,7 @@ pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
          0 up. “Reached at” is the torque at which the limit would be reached (>: not before the curve ends).",
         &people_table(&check.rows, end_nm),
     );
-    page.list(remarks.into_iter().chain(pressures(&check.rows)).chain(asides(design, &check.rows)));
+    page.list(remarks.into_iter().chain(beside_the_rows(design, &check.rows)));
     page.apart("Margins and torque capacities as bars", |page| {
         page.figure(
             &margin_bars(&check.rows).to_figure(),

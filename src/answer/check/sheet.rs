@@ -1,7 +1,7 @@
 //! The design sheet: the answer and a dimensioned drawing first, then margins, scenes and all inputs, to print on A4.
 
 use super::page::answered;
-use super::text::{asides, pressures};
+use super::text::beside_the_rows;
 use super::{CheckAnswer, people_table};
 use crate::answer::page::{draw_inputs, half};
 use crate::answer::{Answer, Provenance};
@@ -26,7 +26,7 @@ pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
          torque at which the limit would be reached; >: not before the curve ends.",
         &people_table(statics, end_nm),
     );
-    page.list(remarks.into_iter().chain(pressures(&check.rows)).chain(asides(design, &check.rows)));
+    page.list(remarks.into_iter().chain(beside_the_rows(design, &check.rows)));
     if !check.scenes.is_empty() {
         page.heading("Scenes").table(
             "Friction from which on a scene sticks, against its static friction; smallest normal force over the static one.",

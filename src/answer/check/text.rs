@@ -1,6 +1,6 @@
 //! The margin check as text, and the sentences that its page has too.
 
-use super::{CheckAnswer, NONE_SUFFICES, OVERLOADED, people_table};
+use super::{CheckAnswer, CheckBody, NONE_SUFFICES, OVERLOADED, people_table};
 use crate::answer::simulation::unfelt;
 use crate::design::Design;
 use crate::life::INDENTING_PA;
@@ -12,65 +12,101 @@ pub(crate) const REACHED_AT: &str =
     "Reached at: torque at which the limit would be reached; >: not before the curve ends";
 /// What the margin of a slip row is.
 const SLIP_MARGIN: &str = "Slip rows: demand is the static friction μ that the scene requires; margin the slip margin, \
-    static over required friction less 1, held from the wanted one up\n";
+    static over required friction less 1, held from the wanted one up";
 
 /// What a row that is not required is.
 const SHOWN_ONLY: &str = "Shown: for information alone, without a say in the verdict; `explain` with the limit's name \
-    says which key makes it count\n";
+    says which key makes it count";
 
-/// The answer on a terminal.
-pub(super) fn text(check: &CheckAnswer, screen: Screen) -> String {
-    let (design, body) = (&check.design, &check.body);
-    let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(screen);
-    let mut out = format!("{}  {}\n\n{table}\n", design.name, design.short_hash());
-    out.push_str(&body.verdict());
-    out.push('\n');
-    out.push_str(&size_line(design));
-    out.push('\n');
-    for line in body.remarks().into_iter().chain(asides(design, &check.rows)) {
-        out.push_str(&greek(&line));
-        out.push('\n');
-    }
-    for line in pressures(&check.rows) {
-        out.push_str(&line);
-        out.push('\n');
-    }
-    if check.rows.iter().any(|r| !r.required) {
-        out.push_str(SHOWN_ONLY);
-    }
-    out.push_str(REACHED_AT);
-    out.push('\n');
-    if check.rows.iter().any(Margin::is_slip) {
-        out.push_str(SLIP_MARGIN);
-    }
-    if check.rows.iter().any(|r| r.demand == Demand::NoneSuffices) {
-        out.push_str(&format!("{NONE_SUFFICES}: contact would open, whatever the friction\n"));
-    }
-    if check.rows.iter().any(|r| r.overloaded() && r.demand.value().is_none()) {
-        out.push_str(&format!(
-            "{OVERLOADED}: the scene's load goes beyond the end of the curve, where the sprag rolls over or leaves its profile\n"
-        ));
-    }
-    out
+/// What text and JSON say beside the table.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Notes {
+    /// Of this design, a line each, warnings first.
+    pub(super) of_design: Vec<String>,
+    /// How the table is to be read, a line each: of any design much the same.
+    pub(super) reading: Vec<String>,
 }
 
-/// Why one contact has two allowed pressures, where it has; the pressure that leaves a dent.
-pub(super) fn pressures(rows: &[Margin]) -> Vec<String> {
+impl Notes {
+    pub(super) fn of(design: &Design, rows: &[Margin], body: &CheckBody) -> Self {
+        let dent = dent(rows);
+        let all = body.other_remarks().into_iter().chain(asides(design, rows)).chain(dent);
+        let mut of_design: Vec<String> = all.map(|line| greek(&line)).collect();
+        if rows.iter().any(|r| r.demand == Demand::NoneSuffices) {
+            of_design.push(format!("{NONE_SUFFICES}: contact would open, whatever the friction"));
+        }
+        if rows.iter().any(|r| r.overloaded() && r.demand.value().is_none()) {
+            of_design.push(format!(
+                "{OVERLOADED}: the scene's load goes beyond the end of the curve, where the sprag rolls over or leaves its profile"
+            ));
+        }
+        // Those alike keep their order.
+        of_design.sort_by_key(|line| match line.split([':', ' ']).next() {
+            Some("Warning") => 0,
+            Some("Note") => 2,
+            _ => 1,
+        });
+        let reading = [
+            Some(REACHED_AT).filter(|_| rows.iter().any(|r| r.torque_capacity_nm.is_some())),
+            Some(SLIP_MARGIN).filter(|_| rows.iter().any(Margin::is_slip)),
+            Some(SHOWN_ONLY).filter(|_| rows.iter().any(|r| !r.required)),
+        ];
+        let reading = reading.into_iter().flatten().map(str::to_owned);
+        let reading = reading.chain(two_allowables(rows)).chain(no_row_of_overrun(design)).collect();
+        Self { of_design, reading }
+    }
+
+    /// All of them.
+    pub(super) fn all(self) -> Vec<String> {
+        self.of_design.into_iter().chain(self.reading).collect()
+    }
+}
+
+/// The answer on a terminal: the table, the verdict, what this design is to be told; `reading`: how the table is to be read, too.
+pub(super) fn text(check: &CheckAnswer, screen: Screen, reading: bool) -> String {
+    let (design, body) = (&check.design, &check.body);
+    let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(screen);
+    let notes = Notes::of(design, &check.rows, body);
+    let left = match notes.reading.len() {
+        0 => None,
+        1 => Some("How to read the table, a note: --notes or --json".to_owned()),
+        many => Some(format!("How to read the table, {many} notes: --notes or --json")),
+    };
+    let lines =
+        [body.verdict(), size_line(design)].into_iter().chain(body.capacity_lines()).chain(notes.of_design);
+    let lines: Vec<String> = match reading {
+        true => lines.chain(notes.reading).collect(),
+        false => lines.chain(left).collect(),
+    };
+    format!("{}  {}\n\n{table}\n{}\n", design.name, design.short_hash(), lines.join("\n"))
+}
+
+/// What pages say beside the rows.
+pub(super) fn beside_the_rows(design: &Design, rows: &[Margin]) -> Vec<String> {
+    let more = two_allowables(rows).into_iter().chain(dent(rows)).chain(no_row_of_overrun(design));
+    more.chain(asides(design, rows)).collect()
+}
+
+/// Why one contact has two allowed pressures, where it has.
+fn two_allowables(rows: &[Margin]) -> Option<String> {
     let of = |key: &str| rows.iter().find(|r| r.limit.key == Some(key)).and_then(Margin::shown_allowable);
-    let allowables = of("hertz_nominal_mpa").zip(of("hertz_peak_mpa")).and_then(|(nominal, peak)| {
-        let [nominal, peak] = [nominal, peak].map(|mpa| significant(mpa, 4));
-        (nominal != peak).then(|| {
-            format!(
-                "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) at nominal torque, which comes again \
-                 and again; {peak} MPa (hertz_peak_mpa) at peak torque and in scenes, which come seldom"
-            )
-        })
-    });
+    let (nominal, peak) = of("hertz_nominal_mpa").zip(of("hertz_peak_mpa"))?;
+    let [nominal, peak] = [nominal, peak].map(|mpa| significant(mpa, 4));
+    (nominal != peak).then(|| {
+        format!(
+            "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) at nominal torque, which comes again \
+             and again; {peak} MPa (hertz_peak_mpa) at peak torque and in scenes, which come seldom"
+        )
+    })
+}
+
+/// The largest pressure that is held and leaves a dent.
+fn dent(rows: &[Margin]) -> Option<String> {
     let held = rows
         .iter()
         .filter(|r| r.required && r.held() && r.limit.key.is_some_and(|key| key.starts_with("hertz_")));
     let largest = held.filter_map(|r| Some((r, r.demand.value()?))).max_by(|a, b| a.1.total_cmp(&b.1));
-    let dent = largest.filter(|(_, pa)| *pa > INDENTING_PA).map(|(row, pa)| {
+    largest.filter(|(_, pa)| *pa > INDENTING_PA).map(|(row, pa)| {
         format!(
             "{} of {} is held, and leaves a permanent dent of more than 1e-4 of the diameter (from {} on: ISO 76, line contacts, 58 HRC or \
              more), which the command life counts as indentation",
@@ -78,8 +114,7 @@ pub(super) fn pressures(rows: &[Margin]) -> Vec<String> {
             Unit::Megapascal.show(pa, 4),
             Unit::Megapascal.show(INDENTING_PA, 4)
         )
-    });
-    allowables.into_iter().chain(dent).collect()
+    })
 }
 
 /// Outside, width and mass in one line.
@@ -134,25 +169,28 @@ fn turning(design: &Design, rows: &[Margin]) -> Option<String> {
     })
 }
 
-/// What the rows do not say: a friction beyond any known, why steady overruns have no rows, steps and histories that come after
-/// the end of their scene.
-pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
+/// Why steady overruns have no rows of their scenes.
+fn no_row_of_overrun(design: &Design) -> Option<String> {
     let steady = design.scenarios.iter().filter(|s| s.kind.is_overrun());
     let names: Vec<&str> = steady.map(|s| s.name.as_str()).collect();
-    let overrunning = (!names.is_empty()).then(|| {
+    (!names.is_empty()).then(|| {
         format!(
             "No slip or contact row for {}: in steady overrun the {} contact slides and nothing is to stick; limits \
              keep_contact_to_rpm and lift_off_by_rpm hold it",
             names.join(", "),
             if design.clutch.slides_outside() { "outer" } else { "inner" }
         )
-    });
+    })
+}
+
+/// What the rows do not say: a friction beyond any known, a film that needs no row, steps and histories that come after the end of their
+/// scene.
+fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
     let held = design.scenarios.iter().filter(|s| rows.iter().any(|r| r.scene.as_ref() == Some(&s.name)));
     let unfelt =
         held.flat_map(|s| unfelt::notes(s).into_iter().map(|note| format!("Note on {}: {note}", s.name)));
     much_friction(design)
         .into_iter()
-        .chain(overrunning)
         .chain(turning(design, rows))
         .chain(no_film_row(design, rows))
         .chain(unfelt)

@@ -2,7 +2,7 @@
 
 use super::{SharingAnswer, largest};
 use crate::report::{Plot, Rows, Unit};
-use crate::sharing::{Bears, Loss, PopPoint};
+use crate::sharing::{Bears, Loss, NotShared, PopPoint};
 
 impl SharingAnswer<'_> {
     /// Beyond the end: the torque as the races are turned on.
@@ -53,7 +53,14 @@ impl SharingAnswer<'_> {
         );
         said += &match (pops.left.len(), pops.left_nm) {
             (_, None) => format!(
-                "; under the torque of the end, once sprag {first} has gone over, the others follow: nothing remains"
+                "; under the torque of the end, once sprag {first} has gone over, {}",
+                match pops.left.last().and_then(|l| l.left.as_ref().err()) {
+                    Some(NotShared::NoBalance) =>
+                        "whether the others carry it is not known, no balance of their forces was found"
+                            .to_owned(),
+                    Some(NotShared::NoneCarries) | None => "the others follow: nothing remains".to_owned(),
+                    Some(why) => format!("the others do not carry it: {}", why.words()),
+                }
             ),
             (1, Some(nm)) => format!(
                 "; once sprag {first} has gone over the others carry up to {}",

@@ -11,7 +11,8 @@ use serde::Serialize;
 pub struct BeyondEndBody<'a> {
     /// The torque as the races are turned on.
     pub course: Rows<&'a PopPoint>,
-    /// What those carry that remain under the torque of the end, N m; null: nothing remains.
+    /// What those carry that remain under the torque of the end, N m; null: nothing remains, or it is not known,
+    /// as the last row of `popped` says.
     pub left_torque_nm: Option<f64>,
     /// Sprags beyond their end there.
     pub peak_over: usize,
@@ -44,7 +45,8 @@ pub struct SharingBody<'a> {
     pub held: bool,
     /// One sprag lost after another, the most pressed first.
     pub losses: Rows<(usize, &'a Loss)>,
-    /// How many sprags, the most pressed first, may be lost until a limit is passed; null: not known.
+    /// How many sprags, the most pressed first, may be lost until a limit is passed; null: not known, but as many at least as rows of
+    /// `losses` are held.
     pub may_be_lost: Option<usize>,
     /// Seed of what sets the sprags apart by chance.
     pub seed: Option<u64>,
@@ -187,6 +189,7 @@ impl SharingAnswer<'_> {
         let pressed = |l: &Loss| Some(l.left.as_ref().ok()?.worst(Bears::hertz_pa).1);
         let verdict = |l: &Loss| match &l.left {
             Err(why) => Cell::Verdict(false, why.words()),
+            Ok(_) if l.slips.is_some() => Cell::Verdict(false, "slips".to_owned()),
             Ok(_) => Cell::held(pressed(l).is_none_or(|pa| self.allowed.is_none_or(|(most, _)| pa <= most))),
         };
         Rows::of(self.losses.iter().enumerate())

@@ -39,7 +39,7 @@ pub struct SharingAnswer<'a> {
     pub pops: Option<Pops>,
     /// As the torque rises, at the worst place.
     pub engagement: Vec<(f64, Result<Shared, NotShared>)>,
-    /// One sprag lost after another, at the worst place.
+    /// One sprag lost after another, at the worst place; none where a limit is passed or one slips already.
     pub losses: Vec<Loss>,
     /// Mean growth and harmonics of inner and outer track there, m.
     pub out_of_round_m: [Vec<f64>; 2],
@@ -143,7 +143,11 @@ impl Design {
             pops,
             engagement: clutch.engagement(torque_nm, *turned_rad),
             losses: match (&turned, allowed, shared) {
-                (Ok(_), Some((allowed_pa, _)), Some(shared)) => clutch.losses(shared, allowed_pa),
+                (Ok(turned), Some((allowed_pa, _)), Some(shared))
+                    if turned.iter().all(|at| clutch.slipping(at).is_none()) =>
+                {
+                    clutch.losses(shared, allowed_pa)
+                }
                 _ => Vec::new(),
             },
             out_of_round_m: shared.map_or_else(Default::default, |s| clutch.out_of_round_m(s, most)),
@@ -170,8 +174,8 @@ impl SharingAnswer<'_> {
             .map(|(i, _, needs)| (i, needs))
     }
 
-    /// How many sprags, the most pressed first, may be lost until a limit is passed; `None`: not known, since no limit is given or
-    /// since no balance was found after a loss.
+    /// How many sprags, the most pressed first, may be lost until a limit is passed or one slips; `None`: not known, since no
+    /// limit is given or since no balance was found after the last of [`SharingAnswer::losses`].
     pub fn may_be_lost(&self) -> Option<usize> {
         (self.allowed.is_some() && self.turned.is_ok() && !self.loss_not_found())
             .then(|| self.losses.len().saturating_sub(1))

@@ -5,7 +5,7 @@ use crate::answer::Said;
 use crate::answer::left_out::LeftOut;
 use crate::clutch::Rim;
 use crate::report::{Unit, significant};
-use crate::sharing::Shared;
+use crate::sharing::{NotShared, Shared};
 
 impl SharingAnswer<'_> {
     /// The answer in a sentence.
@@ -45,24 +45,40 @@ impl SharingAnswer<'_> {
                 significant(needs, 3),
                 significant(self.sprags[i].sprag.friction, 3)
             );
-        } else if let Some(count) = self.may_be_lost().filter(|_| self.is_held()) {
-            said += &match count {
-                0 => "; if the most pressed one failed, the others would be pressed beyond that".to_owned(),
-                1 => "; if the most pressed one failed, the others would still hold, after a second one not"
-                    .to_owned(),
-                _ => format!("; {count} may fail, each time the most pressed one, and the others still hold"),
-            };
-        } else if self.is_held() && self.loss_not_found() {
-            said += &format!(
-                "; how many may fail is not known: without {} more the forces on the others were not found; so many fewer are held",
-                if self.losses.len() == 1 { "one".to_owned() } else { self.losses.len().to_string() }
-            );
         }
+        said += &self.losses_words();
         if let Some(peak_nm) = self.design.limits.peak_torque_nm.filter(|nm| *nm > self.torque_nm) {
             said +=
                 &format!("; at peak torque, {}, `check` holds the worst", Unit::NewtonMetre.show(peak_nm, 4));
         }
         said
+    }
+
+    /// How many may fail, as the table of losses has it.
+    fn losses_words(&self) -> String {
+        let Some(last) = self.losses.last() else { return String::new() };
+        let (after, then) = match self.losses.len() - 1 {
+            0 => (String::new(), "if the most pressed one failed"),
+            1 => (
+                "; if the most pressed one failed, the others would still hold".to_owned(),
+                "after a second one",
+            ),
+            many => (
+                format!("; {many} may fail, each time the most pressed one, and the others still hold"),
+                "after one more",
+            ),
+        };
+        let end = match last.left {
+            Ok(_) => match last.slips {
+                Some(i) => format!("{then}, sprag {} would slip", i + 1),
+                None => format!("{then}, the others would be pressed beyond that"),
+            },
+            Err(NotShared::NoBalance) => {
+                format!("whether the others hold {then} is not known: no balance of their forces was found")
+            }
+            Err(why) => format!("{then}, the others would not carry it: {}", why.words()),
+        };
+        format!("{after}; {end}")
     }
 
     /// What is left out of sprags one by one.

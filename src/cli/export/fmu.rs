@@ -57,9 +57,14 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     Ok(Exit::Held)
 }
 
+/// The library's name as a file.
+fn library_file() -> String {
+    format!("{DLL_PREFIX}sprag_design_fmu{DLL_SUFFIX}")
+}
+
 /// Where the library is: as named, or beside this program.
 fn library_path(named: Option<&Path>) -> PathBuf {
-    let file = format!("{DLL_PREFIX}sprag_design_fmu{DLL_SUFFIX}");
+    let file = library_file();
     let beside = || Some(std::env::current_exe().ok()?.parent()?.join(&file));
     named.map(PathBuf::from).or_else(beside).unwrap_or_else(|| PathBuf::from(&file))
 }
@@ -73,8 +78,10 @@ fn library(path: &Path) -> Result<Vec<u8>, Failure> {
 
 fn no_library(path: &Path, found: &str) -> Failure {
     Failure::malformed(format!(
-        "{}: the library of a co-simulation unit: {found}; build it by fmu/build.sh of the source of this version, and name it by \
-         --library or put it beside this program",
-        path.display()
+        "{}: the library of a co-simulation unit: {found}; the release archive has it, Python's wheel has not. In the source of version {} it \
+         is built by `fmu/build.sh`, which needs Rust's cargo; then add `--library target/release/{}`, or put that file beside this program",
+        path.display(),
+        env!("CARGO_PKG_VERSION"),
+        library_file()
     ))
 }
