@@ -14,14 +14,15 @@
 //! and as N_be is linear in w and w in N_be, both follow in closed form. The pocket has no play along the track: the cage also keeps a
 //! sprag from running ahead. A sprag that tilts ([`super::cage`]) follows without inertia; its alpha counts at first contact.
 //!
-//! Once v_B = 0 the sprag is free: the outer race takes it forward, away from the cage, and it wedges. Off the outer race it goes on
+//! Once v_B = 0 the sprag is free, pressed as its spring does between races that stand still against one another: the outer race takes it
+//! forward, away from the cage, and it wedges. Off the outer race it goes on
 //! with the cage, whichever race runs ahead, until the spring brings it back. A sprag that comes down to first contact, or up to
 //! it, slower than the inner race, is taken along again: it and the inner race then have the speed that keeps their momentum.
 
 use super::cage::Held;
-use super::model::{Forces, Grip, Mode, Model};
+use super::model::{Forces, Mode, Model};
 use super::start::SlidingContact;
-use crate::clutch::Cage;
+use crate::clutch::{Cage, Clutch};
 use crate::numeric::root;
 use crate::wedge::{WedgeCurve, WedgePoint};
 
@@ -57,7 +58,7 @@ type Spin = [f64; 2];
 
 impl Carried {
     /// A sprag of `model` in `cage`; `touch` as of [`super::overrun_in_cage`].
-    pub fn new(clutch: &crate::clutch::Clutch, cage: &Cage, touch: &WedgeCurve) -> Self {
+    pub fn new(clutch: &Clutch, cage: &Cage, touch: &WedgeCurve) -> Self {
         let touching = Held::new(clutch, cage, touch, 0.0);
         Self { touching, on_stop: touching.on_stop(cage.clearance_m, 0.0) }
     }
@@ -128,7 +129,8 @@ impl Model {
         self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g
     }
 
-    /// (How the sprags ride where the curve is `p`, theta_bi''), rad/s^2; `load_nm`: what acts on the inner race beside them.
+    /// (How the sprags ride where the curve is `p`, theta_bi''), rad/s^2; `load_nm`: what acts on the inner race beside them; `off`: they are
+    /// off the outer race.
     pub(super) fn ride(
         &self,
         carried: &Carried,
@@ -136,6 +138,7 @@ impl Model {
         p: &WedgePoint,
         rates: &[f64; 4],
         load_nm: f64,
+        off: bool,
     ) -> (Ride, f64) {
         let (speed, spin) = self.mean_speed(t);
         let sprags = self.count * self.orbit_kg_m2(p);
@@ -147,7 +150,7 @@ impl Model {
             None => ((load_nm - sprags * spin) / inertia, -mu * self.count * p.ob / inertia),
         };
         let ride = carried.ride(self, speed + rates[2], mu, [free + spin, per_n]);
-        (ride, free + per_n * ride.n_be)
+        (ride, free + if off { 0.0 } else { per_n * ride.n_be })
     }
 
     /// Accelerations and forces of carried sprags; `load_nm`: what acts on the races beside them. T_bi is what inner race and cage
@@ -161,10 +164,9 @@ impl Model {
         load_nm: [f64; 2],
     ) -> Forces {
         let Some(carried) = &self.carried else { return Forces::NONE };
-        let (ride, inner) = self.ride(carried, t, p, rates, load_nm[0]);
+        let (ride, inner) = self.ride(carried, t, p, rates, load_nm[0], mode.is_off());
         let (v_a, v_b) = self.slip_velocities(p, rates);
-        let lags = matches!(mode.outer, Grip::Slip(s) if s < 0.0);
-        let n_be = if lags { ride.n_be } else { 0.0 };
+        let n_be = if mode.is_off() { 0.0 } else { ride.n_be };
         let t_be = -self.mu_outer(v_b) * n_be;
         let spin = self.mean_speed(t).1;
         let t_bi = (t_be * p.ob - self.orbit_kg_m2(p) * (inner + spin)) / p.oa;
@@ -173,12 +175,12 @@ impl Model {
         Forces { acceleration: [0.0, inner, inner, outer], t_bi, t_be, n_bi: ride.n_bi, n_be, v_a, v_b }
     }
 
-    /// What the sprags, off an outer race that runs ahead, are opened by more than the spring closes them, N m; 1 where that says nothing.
-    pub(super) fn off_nm<const N: usize>(&self, mode: &Mode, t: f64, y: &[f64; N], p: &WedgePoint) -> f64 {
-        let ahead = matches!(mode.outer, Grip::Slip(s) if s > 0.0);
-        let Some(carried) = self.carried.as_ref().filter(|_| ahead) else { return 1.0 };
+    /// Positive as long as carried sprags are off the outer race, or press on it, as `mode` says, N m.
+    pub(super) fn stays_nm<const N: usize>(&self, mode: &Mode, t: f64, y: &[f64; N], p: &WedgePoint) -> f64 {
+        let Some(carried) = &self.carried else { return 1.0 };
         let rates = self.rates(mode, p, y);
-        self.ride(carried, t, p, &rates, self.race_loads_nm(t, y, &rates)[0]).0.off_nm
+        let off_nm = self.ride(carried, t, p, &rates, self.race_loads_nm(t, y, &rates)[0], true).0.off_nm;
+        if mode.is_off() { off_nm } else { -off_nm }
     }
 
     /// Torque of steadily carried sprags on the inner race, N m.

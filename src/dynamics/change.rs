@@ -35,7 +35,7 @@ where
         let mode = self.run.mode;
         let p = self.hold(&mut y);
         if mode.place == Place::Carried {
-            self.catch_up(t, &mut y, &p);
+            self.catch_up(which, t, &mut y, &p);
             return true;
         }
         let forces = || model.forces_at(&mode, t, &y, &p, &model.rates(&mode, &p, &y));
@@ -82,28 +82,34 @@ where
         true
     }
 
-    /// Carried sprags where the outer race comes to run as fast as they, or they come back to one that is faster: it takes them into the
-    /// wedge; off it they go on beside it.
-    fn catch_up(&mut self, t: f64, y: &mut [f64; N], p: &WedgePoint) {
+    /// Carried sprags where the outer race comes to run as fast as they, or where they come off it or back to it: one that is as fast, or
+    /// faster, takes them into the wedge.
+    fn catch_up(&mut self, which: usize, t: f64, y: &mut [f64; N], p: &WedgePoint) {
+        let mode = self.run.mode;
+        let lags = matches!(mode.outer, Grip::Slip(s) if s < 0.0);
+        let next = match (which == OUTER, mode.is_off()) {
+            (true, true) => Mode { outer: if lags { Grip::Slip(1.0) } else { Grip::Slip(-1.0) }, ..mode },
+            (false, false) => Mode { inner: Mode::OFF, ..mode },
+            (false, true) if lags => Mode { inner: Mode::PRESSED, ..mode },
+            _ => return self.wedge_in(lags, t, y, p),
+        };
+        self.run.state = *y;
+        self.enter(Next::of_mode(next));
+    }
+
+    /// Carried sprags are let go at an outer race that is as fast as they (`lags`: was slower until now), or faster.
+    fn wedge_in(&mut self, lags: bool, t: f64, y: &mut [f64; N], p: &WedgePoint) {
         let (model, mode) = (self.model, self.run.mode);
         let rates = model.rates(&mode, p, y);
-        let ride = model.carried.map(|carried| {
-            let load_nm = model.race_loads_nm(t, y, &rates)[0];
-            model.ride(&carried, t, p, &rates, load_nm).0
-        });
-        let Some(ride) = ride.filter(|ride| ride.n_be > 0.0) else {
-            let outer = match mode.outer {
-                Grip::Slip(s) => Grip::Slip(-s),
-                Grip::Stick => Grip::Slip(-1.0),
-            };
-            self.run.state = *y;
-            return self.enter(Next::of_mode(Mode { outer, ..mode }));
-        };
+        let load_nm = model.race_loads_nm(t, y, &rates)[0];
+        let tilt_rad = model
+            .carried
+            .map_or(0.0, |carried| model.ride(&carried, t, p, &rates, load_nm, false).0.tilt_rad);
         let v_b = model.slip_velocities(p, &rates).1;
-        let outer = if mode.outer == Grip::Slip(1.0) { moving(v_b.max(0.0)) } else { Known::Still };
+        let outer = if lags { Known::Still } else { moving(v_b.max(0.0)) };
         let from = y[0];
-        let place = if ride.tilt_rad > 0.0 {
-            y[0] -= ride.tilt_rad;
+        let place = if tilt_rad > 0.0 {
+            y[0] -= tilt_rad;
             Place::Open
         } else {
             // Pressed in as its spring does between races that stand still against one another.
@@ -137,7 +143,9 @@ where
         y[0] = model.curve.first_contact_rad();
         y[4..8].copy_from_slice(&after);
         (self.run.t_s, self.run.state) = (t, *y);
-        let mode = Mode { place: Place::Carried, inner: Grip::Stick, outer: Grip::Slip(-1.0) };
+        let pressed = Mode { place: Place::Carried, inner: Mode::PRESSED, outer: Grip::Slip(-1.0) };
+        let stays = model.stays_nm(&pressed, t, y, &model.point(Place::Carried, y[0])) > 0.0;
+        let mode = if stays { pressed } else { Mode { inner: Mode::OFF, ..pressed } };
         self.enter(Next::of_mode(mode));
         true
     }
@@ -220,7 +228,7 @@ where
             return true;
         }
         if mode.place == Place::Carried {
-            self.catch_up(t, &mut y, &p);
+            self.catch_up(if now[OUTER] < 0.0 { OUTER } else { INNER }, t, &mut y, &p);
             return true;
         }
         let again = |grip: Grip, negative: bool| match grip {
@@ -308,11 +316,11 @@ where
         let both = mode.inner == Grip::Stick && mode.outer == Grip::Stick;
         let closed = matches!(mode.place, Place::Arc(_));
         self.phase = (both && closed).then(|| y[2] - y[3] + p.windup);
-        match (mode.place == Place::Open, self.open_since) {
+        let apart = mode.place == Place::Open || mode.is_off();
+        match (apart, self.open_since) {
             (true, None) => self.open_since = Some(t),
             (false, Some(since)) => {
-                self.run.open_s += t - since;
-                self.run.longest_open_s = self.run.longest_open_s.max(t - since);
+                self.run.end_open(since, t);
                 self.open_since = None;
             }
             _ => {}

@@ -94,7 +94,7 @@ where
             model,
             settings,
             run: Run::start(state, mode, settings.samples),
-            open_since: (mode.place == Place::Open).then_some(0.0),
+            open_since: (mode.place == Place::Open || mode.is_off()).then_some(0.0),
             phase: None,
             watch: Watch::new(model, settings),
             audit: None,
@@ -491,7 +491,7 @@ where
             y[0] -= miss / end.rho;
         }
         let before = self.run.state;
-        if mode.place != Place::Open {
+        if mode.place != Place::Open && !mode.is_off() {
             for (record, grip, i) in
                 [(&mut self.run.inner, mode.inner, 8), (&mut self.run.outer, mode.outer, 9)]
             {
@@ -524,9 +524,7 @@ where
             self.run.fast_motion = fast.map(|(rate, part)| FastMotion::of(rate, &part));
         }
         if let Some(since) = self.open_since {
-            let stretch = self.run.t_s - since;
-            self.run.open_s += stretch;
-            self.run.longest_open_s = self.run.longest_open_s.max(stretch);
+            self.run.end_open(since, self.run.t_s);
         }
         self.run
     }

@@ -9,7 +9,7 @@ pub(super) const EVENTS: usize = 4;
 pub(super) const LOWER: usize = 0;
 /// Index: alpha rises to the upper end of its place.
 pub(super) const UPPER: usize = 1;
-/// Index: contact A changes its grip; carried sprags: the spring brings B back to an outer race that runs ahead.
+/// Index: contact A changes its grip; carried sprags come off the outer race or back to it.
 pub(super) const INNER: usize = 2;
 /// Index: contact B changes its grip.
 pub(super) const OUTER: usize = 3;
@@ -102,7 +102,7 @@ pub(super) fn probe_of<const N: usize>(
     let mu = model.friction.static_;
     let inner = match mode.inner {
         _ if mode.place == Place::Open || !grips => 1.0,
-        _ if mode.place == Place::Carried => model.off_nm(mode, t, y, p),
+        _ if mode.place == Place::Carried => model.stays_nm(mode, t, y, p),
         Grip::Slip(s) => s * f.v_a,
         Grip::Stick => mu * f.n_bi - f.t_bi.abs(),
     };
@@ -165,7 +165,9 @@ pub(super) fn without_forces<const N: usize>(
     match (i, mode.inner, mode.outer) {
         (LOWER, ..) => Some(within(model, mode.place, y[0]).0),
         (UPPER, ..) => Some(within(model, mode.place, y[0]).1),
-        (INNER, Grip::Slip(s), _) if mode.place != Place::Open => Some(s * velocities().0),
+        (INNER, Grip::Slip(s), _) if !matches!(mode.place, Place::Open | Place::Carried) => {
+            Some(s * velocities().0)
+        }
         (OUTER, _, Grip::Slip(s)) => Some(s * velocities().1),
         _ => None,
     }

@@ -32,7 +32,8 @@ pub enum Place {
     Arc(usize),
     /// Pure-rolling run only: below first contact, held by tension.
     Tension,
-    /// A driven cage carries the sprag with the inner race, from which A neither slips nor lifts off.
+    /// A driven cage carries the sprag with the inner race; the grip at A says whether B presses on the outer race ([`Mode::PRESSED`])
+    /// or is off it ([`Mode::OFF`]).
     Carried,
 }
 
@@ -41,10 +42,22 @@ pub enum Place {
 pub struct Mode {
     /// Where A is.
     pub place: Place,
-    /// Grip at A; means nothing while open.
+    /// Grip at A; means nothing while open, and something else while carried ([`Place::Carried`]).
     pub inner: Grip,
     /// Grip at B.
     pub outer: Grip,
+}
+
+impl Mode {
+    /// Stands for the grip at A of a carried sprag that presses on the outer race.
+    pub const PRESSED: Grip = Grip::Stick;
+    /// The same of one that is off it.
+    pub const OFF: Grip = Grip::Slip(1.0);
+
+    /// Whether a cage carries sprags that are off the outer race.
+    pub fn is_off(&self) -> bool {
+        self.place == Place::Carried && self.inner == Self::OFF
+    }
 }
 
 /// A clutch under loads, ready to be integrated.

@@ -394,6 +394,14 @@ impl<const N: usize> Run<N> {
         path > path_m || self.slip_begins_n >= loaded_n.max(f64::MIN_POSITIVE)
     }
 
+    /// A stretch without contact that began at `since` ends at `t` (s); one in which a cage carries the sprags is no contact that is lost.
+    pub(super) fn end_open(&mut self, since: f64, t: f64) {
+        self.open_s += t - since;
+        if self.mode.place == Place::Open {
+            self.longest_open_s = self.longest_open_s.max(t - since);
+        }
+    }
+
     /// Remember the first moment at which A carries load without overrunning.
     pub(super) fn note_engagement(&mut self) {
         let holds = matches!(self.mode.place, Place::Arc(_)) && self.mode.inner != Grip::Slip(1.0);

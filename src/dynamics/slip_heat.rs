@@ -189,10 +189,13 @@ fn rubs(mode: &Mode) -> Option<(usize, [Option<f64>; 2])> {
         Place::Carried => 0,
         Place::Open | Place::Tension => return None,
     };
-    let senses = [mode.inner, mode.outer].map(|grip| match grip {
+    let mut senses = [mode.inner, mode.outer].map(|grip| match grip {
         Grip::Slip(sense) => Some(sense),
         Grip::Stick => None,
     });
+    if mode.place == Place::Carried {
+        senses = [None, senses[1].filter(|_| !mode.is_off())];
+    }
     (senses != [None; 2]).then_some((arc, senses))
 }
 

@@ -39,7 +39,7 @@ impl LoadState {
     }
 
     /// The same while the clutch turns at `speed_rad_s`; `None` where no curve is found there.
-    pub(super) fn turning(&self, design: &Design, speed_rad_s: f64) -> Option<Self> {
+    pub(crate) fn turning(&self, design: &Design, speed_rad_s: f64) -> Option<Self> {
         let effort = self.curve.effort();
         let curve = self.at_speeds.of(&self.curve, &design.clutch, speed_rad_s, None, effort)?;
         Some(Self { curve, ..self.clone() })
@@ -141,21 +141,21 @@ pub struct LoadRows {
 }
 
 /// Behind the name of a row that is worse while the clutch turns than at rest.
-const TURNING: &str = "turning at at_speed_rpm";
+const TURNING: &str = "while it turns";
 
 impl Margin {
-    /// Whether it is that of the clutch turning at `limits.at_speed_rpm`.
+    /// Whether it is that of the clutch while it turns, [`Limits::at_speed_rad_s`].
     pub fn turns(&self) -> bool {
         self.aside.as_ref().is_some_and(|aside| aside.starts_with(TURNING))
     }
 }
 
 impl LoadRows {
-    /// Of each limit that is held at a torque the row at rest or that of the clutch `turning`, whichever is worse; lost where that has
-    /// no curve.
-    pub(super) fn or_turning(mut self, turning: Option<Self>) -> Self {
+    /// Of each limit that is held at a torque the row at rest or that of the clutch `turning`, which has the torque at the end of its curve
+    /// (N m), whichever is worse; lost where that has no curve.
+    pub(super) fn or_turning(mut self, turning: Option<(Self, f64)>) -> Self {
         let loaded = |row: &&mut Margin| matches!(row.limit.when, When::Nominal | When::Peak);
-        let Some(turning) = turning else {
+        let Some((turning, end_nm)) = turning else {
             for row in self.rows.iter_mut().filter(loaded) {
                 row.demand = Demand::Overloaded { at_end: None, beyond: BeyondEnd::Short(-1.0) };
                 row.aside = Some(format!("{TURNING}, where no curve is found"));
@@ -170,7 +170,7 @@ impl LoadRows {
                     None => TURNING.to_owned(),
                     Some(aside) => format!("{TURNING}, {aside}"),
                 };
-                *row = Margin { aside: Some(aside), ..there.clone() };
+                *row = Margin { aside: Some(aside), end_torque_nm: Some(end_nm), ..there.clone() };
             }
         }
         self.deciding.extend(turning.deciding);

@@ -139,17 +139,32 @@ pub fn load_margins(
 
 /// The same with what they say of the states on the way to a torque.
 pub fn load_rows(design: &Design, limits: &Limits, capacities: Capacities, state: &LoadState) -> LoadRows {
+    load_rows_by(design, limits, capacities, state, |_, _| {})
+}
+
+/// The same, the rows of each state, at rest and while it turns, changed by `change` before the worse are taken.
+pub fn load_rows_by(
+    design: &Design,
+    limits: &Limits,
+    capacities: Capacities,
+    state: &LoadState,
+    change: impl Fn(&mut [Margin], &LoadState),
+) -> LoadRows {
     let rows = |state: &LoadState| {
         let mut found = load::rows(design, limits, state);
         if capacities == Capacities::Wanted {
             capacity::fill(&mut found.rows, design, limits, state);
         }
+        change(&mut found.rows, state);
         found
     };
     let found = rows(state);
     match limits.at_speed_rad_s {
         None => found,
-        Some(speed) => found.or_turning(state.turning(design, speed).map(|turning| rows(&turning))),
+        Some(speed) => {
+            let turning = state.turning(design, speed);
+            found.or_turning(turning.map(|turning| (rows(&turning), turning.curve.end_torque_nm())))
+        }
     }
 }
 

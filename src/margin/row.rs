@@ -159,6 +159,8 @@ pub struct Margin {
     pub reference: f64,
     /// Torque at which this limit would be reached, N m, where it depends on torque.
     pub torque_capacity_nm: Option<f64>,
+    /// Torque at which the curve that it is read from ends, N m; `None`: that at rest does.
+    pub end_torque_nm: Option<f64>,
     /// Whether it counts for the verdict; the others are shown only.
     pub required: bool,
 }
@@ -177,6 +179,7 @@ impl Margin {
             allowable,
             reference: 0.0,
             torque_capacity_nm: None,
+            end_torque_nm: None,
             required: true,
         }
     }

@@ -561,7 +561,8 @@ fn opening(gap_m: Option<f64>, design: &Design) -> Option<f64> {
 }
 
 fn gap_opening_m(case: &LoadCase, p: &StaticPoint) -> f64 {
-    case.elastic().gap_opening_m(p.normal_inner_n, p.normal_outer_n)
+    let spun_m = case.elastic().outer_race.centrifugal_bore_growth_m(case.state.curve.speed_rad_s());
+    case.elastic().gap_opening_m(p.normal_inner_n, p.normal_outer_n) + spun_m
 }
 
 fn static_friction(design: &Design, _: &Limits) -> Option<f64> {

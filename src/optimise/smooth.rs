@@ -23,18 +23,18 @@ pub(super) fn load_rows(
     capacities: Capacities,
     state: &LoadState,
 ) -> LoadRows {
-    let mut found = margin::load_rows(design, limits, capacities, state);
-    if state.curve.end_torque_nm() <= 0.0 {
-        return found;
-    }
-    for row in &mut found.rows {
-        let Demand::Overloaded { at_end, .. } = row.demand else { continue };
-        let ends = row.limit == &END_OF_PROFILE;
-        let shortfall = limits.peak_torque_nm.filter(|_| ends).map(|torque| profile_short(state, torque));
-        let beyond = shortfall.map_or(BeyondEnd::AsAtEnd, BeyondEnd::Short);
-        row.demand = Demand::Overloaded { at_end, beyond };
-    }
-    found
+    margin::load_rows_by(design, limits, capacities, state, |rows, state| {
+        if state.curve.end_torque_nm() <= 0.0 {
+            return;
+        }
+        for row in rows {
+            let Demand::Overloaded { at_end, .. } = row.demand else { continue };
+            let ends = row.limit == &END_OF_PROFILE;
+            let shortfall = limits.peak_torque_nm.filter(|_| ends).map(|torque| profile_short(state, torque));
+            let beyond = shortfall.map_or(BeyondEnd::AsAtEnd, BeyondEnd::Short);
+            row.demand = Demand::Overloaded { at_end, beyond };
+        }
+    })
 }
 
 /// Margin of the end of the profile at a torque beyond the curve's end, N m.
@@ -56,4 +56,28 @@ pub(super) fn flank_rows(design: &Design, state: &LoadState) -> Vec<Margin> {
     let Ok(room) = Outline::room(&state.profile, &flanks) else { return Vec::new() };
     let rows = LIMITS.iter().filter(|limit| limit.when == When::Outline).zip(room.into_iter().flatten());
     rows.map(|(limit, left)| Margin::new(limit, Demand::Value(ROOM), left)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::margin::load_state;
+
+    /// A clutch that carries its peak torque at rest and not at its speed is not feasible, by what the torque lacks there and more.
+    #[test]
+    fn limits_are_held_at_the_speed_of_the_clutch() {
+        let mut design = Design::read("designs/huang2017-multi-arc.toml".as_ref()).unwrap();
+        let rest = load_state(&design).unwrap();
+        let speed = 1200.0;
+        let end = rest.turning(&design, speed).unwrap().curve.end_torque_nm();
+        let peak = 0.5 * (end + rest.curve.end_torque_nm());
+        design.limits.peak_torque_nm = Some(peak);
+        let ends = |limits: &Limits| {
+            let rows = load_rows(&design, limits, Capacities::LeftOut, &rest).rows;
+            rows.iter().find(|row| row.limit == &END_OF_PROFILE).unwrap().margin()
+        };
+        assert!(ends(&design.limits) > 0.0);
+        let turning = Limits { at_speed_rad_s: Some(speed), ..design.limits };
+        assert!(ends(&turning) < end / peak - 1.0 && ends(&turning) > -0.5, "{}", ends(&turning));
+    }
 }

@@ -60,6 +60,8 @@ pub struct Simulation {
     pub inner: SlipRecord,
     /// Slip at B.
     pub outer: SlipRecord,
+    /// Path that B slid since the clutch engaged while a driven cage carried the sprags, m.
+    pub carried_m: f64,
     /// Time without contact, s.
     pub contact_lost_s: f64,
     /// Extremes.

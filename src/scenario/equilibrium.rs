@@ -37,6 +37,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         offset_rad: 0.0,
         inner: SlipRecord::default(),
         outer: SlipRecord::default(),
+        carried_m: 0.0,
         contact_lost_s: 0.0,
         peaks,
         hertz_peak_pa: hertz_peak(prepared, n_bi, n_be),

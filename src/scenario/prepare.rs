@@ -347,7 +347,8 @@ fn overrunning(free: &Overrun, model: &Model, speed_rad_s: f64) -> (State, Mode)
     (state[0], state[6]) = (free.alpha_rad, speed_rad_s);
     if model.carried.is_some() {
         (state[0], state[5]) = (curve.first_contact_rad(), speed_rad_s);
-        return (state, Mode { place: Place::Carried, inner: Grip::Stick, outer: Grip::Slip(-1.0) });
+        let inner = if free.sliding_n > 0.0 { Mode::PRESSED } else { Mode::OFF };
+        return (state, Mode { place: Place::Carried, inner, outer: Grip::Slip(-1.0) });
     }
     let closed = free.normal_inner_n > 0.0;
     let place = if closed { Place::Arc(curve.arc_at(free.alpha_rad)) } else { Place::Open };

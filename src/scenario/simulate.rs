@@ -347,6 +347,7 @@ fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
         offset_rad: offset(prepared, run),
         inner,
         outer,
+        carried_m: run.carried_m,
         contact_lost_s: run.open_s,
         peaks: p,
         hertz_peak_pa: hertz_peak(prepared, p.normal_max_n, p.normal_outer_max_n),
@@ -397,14 +398,13 @@ pub(super) fn slips(run: &Run) -> [SlipRecord; 2] {
 
 pub(super) fn hertz_peak(prepared: &Prepared, n_bi: f64, n_be: f64) -> f64 {
     let elastic = &prepared.model.curve.statics().elastic;
-    let inner = prepared.model.curve.at_normal(n_bi).map_or(0.0, |p| p.hertz_inner_pa);
+    let inner = prepared.model.curve.hertz_inner_pa(n_bi);
     inner.max(elastic.outer_contact.peak_pressure_pa(n_be.max(0.0)))
 }
 
 /// p_0 at A at static equilibrium with `n_bi`, Pa; 0 without load.
 pub(super) fn hertz_at(prepared: &Prepared, n_bi: f64) -> f64 {
-    let row = (n_bi > 0.0).then(|| prepared.model.curve.at_normal(n_bi)).flatten();
-    row.map_or(0.0, |p| p.hertz_inner_pa)
+    prepared.model.curve.hertz_inner_pa(n_bi)
 }
 
 /// Net slip beyond which a scene counts as slipped, m (INTERFACE: 1 um).

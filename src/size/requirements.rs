@@ -178,7 +178,8 @@ impl Wish {
                     wanted.overrun_from[1]
                 ),
                 allowed: "up to the speed of the outer race in overrun, outer-rpm: these sprags ride with it, and nothing else throws them off \
-                          the inner race; 0: they stay on"
+                          the inner race; 0: they stay on. Sprags that a cage carries with the inner race lift off the outer one: the table [cage], which new \
+                          does not write (guide, overrun)"
                     .to_owned(),
             });
         }

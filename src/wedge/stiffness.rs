@@ -86,6 +86,18 @@ impl WedgeCurve {
         self.closure_at_normal(normal_n).map(|(k, c)| self.row(k, &c))
     }
 
+    /// p_0 at A under `normal_n`, Pa: 0 without a force; beyond the curve that of its last arc alone, by Hertz.
+    pub fn hertz_inner_pa(&self, normal_n: f64) -> f64 {
+        if normal_n <= 0.0 {
+            return 0.0;
+        }
+        let beyond = || {
+            let last = self.first_arc() + self.arc_count() - 1;
+            self.statics().elastic.inner_contact.get(last).map_or(0.0, |c| c.peak_pressure_pa(normal_n))
+        };
+        self.at_normal(normal_n).map_or_else(beyond, |p| p.hertz_inner_pa)
+    }
+
     /// The row of one equilibrium.
     pub(super) fn row(&self, k: usize, c: &Closure) -> StaticPoint {
         let statics = self.statics();

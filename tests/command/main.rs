@@ -4,6 +4,7 @@
 mod program;
 
 mod accuracy;
+mod at_speed;
 mod cad;
 mod check;
 mod command_line;

@@ -441,7 +441,7 @@ pub fn margin_cell(r: &Margin) -> Cell {
 
 fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
     if is_beyond(r, capacity_nm, end_torque_nm) {
-        format!("> {}", significant(end_torque_nm, 4)).into()
+        format!("> {}", significant(r.end_torque_nm.unwrap_or(end_torque_nm), 4)).into()
     } else {
         capacity_nm.into()
     }
@@ -450,7 +450,7 @@ fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
 /// Whether the limit is not reached before the curve ends; the two limits that are the end itself are.
 pub fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> bool {
     let is_end = r.limit.ends_curve && !r.off_centre;
-    !is_end && capacity_nm >= end_torque_nm * (1.0 - 1e-9)
+    !is_end && capacity_nm >= r.end_torque_nm.unwrap_or(end_torque_nm) * (1.0 - 1e-9)
 }
 
 /// Whether the limit has a capacity, and that lies at the end of the curve or beyond.

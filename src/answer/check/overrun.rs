@@ -429,9 +429,13 @@ impl OverrunSection {
                 return "No spring closes the sprags: nothing presses them on the outer race".to_owned();
             }
             return format!(
-                "Sprags lift off the outer race at {rpm:.0} rpm of the inner race{}: keep above it in long overrun{}; {} later for each µm of \
+                "Sprags lift off the outer race at {rpm:.0} rpm of the inner race{}{}; {} later for each µm of \
                  clearance outside the pivot {}{}",
-                if self.on_film { ", on oil by and by from there on" } else { "" },
+                if self.on_film {
+                    ", on oil by and by from there on: `overrun` has what the film drags beyond"
+                } else {
+                    ": keep above it in long overrun"
+                },
                 match cage.comes_back_there {
                     true => "; they come back at the same speed",
                     false =>

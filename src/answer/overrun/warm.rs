@@ -46,7 +46,7 @@ impl WarmClutch {
             ("thermal.outer_race_c", bodies.outer_race),
         ];
         let why = |refused: DesignError| match refused.problems().first() {
-            Some(problem) => format!("found {}; allowed {}", problem.found, problem.allowed),
+            Some(problem) => format!("it takes {}; {}", problem.allowed, problem.help),
             None => refused.to_string(),
         };
         let warm = design.with_values(&values).map_err(why)?;

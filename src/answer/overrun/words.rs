@@ -290,8 +290,8 @@ impl OverrunAnswer<'_> {
         }
         all.push(match self.lift_off_rad_s {
             Some(w) if self.slides_outside() => format!(
-                "Without oil the sprags are off the outer race from {} of the inner race; on oil they float off from there, on a film that grows \
-                 with speed as long as the inlet is full",
+                "Without oil the sprags are off the outer race from {} of the inner race; on oil they float off from there, on a film as \
+                 long as the inlet is full: what that drags is in the table",
                 Unit::Rpm.show(w, 4)
             ),
             Some(w) => format!(

@@ -274,10 +274,7 @@ fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePe
         torque_nm: count * f.t_bi * p.oa,
         hertz_pa: [
             // The mean over the patch, as everywhere.
-            Some(f.n_bi)
-                .filter(|&n| n > 0.0)
-                .and_then(|n| model.curve.at_normal(n))
-                .map_or(0.0, |p| p.hertz_inner_pa),
+            model.curve.hertz_inner_pa(f.n_bi),
             elastic.outer_contact.peak_pressure_pa(f.n_be.max(0.0)),
         ],
         slice_pa: slices.map(|s| s.at(arc, f.n_bi, f.n_be)),
@@ -293,6 +290,9 @@ pub fn word(mode: &Mode, inner: bool) -> &'static str {
     }
     if mode.place == Place::Carried && inner {
         return "cage";
+    }
+    if mode.is_off() {
+        return "open";
     }
     match if inner { mode.inner } else { mode.outer } {
         Grip::Stick => "stick",

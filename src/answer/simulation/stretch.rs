@@ -116,6 +116,8 @@ fn change(old: &Mode, new: &Mode) -> Option<&'static str> {
     let what = |(before, after): (&str, &str), inner: bool| match (before, after, inner) {
         (_, "cage", true) => "the cage takes the sprags along",
         ("cage", _, true) => "the outer race catches up",
+        ("open", _, false) => "the outer contact closes",
+        (_, "open", false) => "the outer contact opens",
         ("open", ..) => "the inner contact closes",
         (_, "open", _) => "the inner contact opens",
         (_, "stick", true) => "the inner contact sticks",

@@ -177,9 +177,13 @@ fn on_the_way(s: &Simulation) -> Option<String> {
 fn shifted(s: &Simulation) -> String {
     let sense = |towards: f64| if towards > 0.0 { "overrunning" } else { "engaging" };
     let offset = Unit::Milliradian.show(s.offset_rad.abs(), 4);
-    // Sprags that a cage carries slide at B alone.
-    let slip = if s.inner.net_m == 0.0 { s.offset_rad } else { s.inner.net_m };
-    let (slip, race) = (sense(slip), sense(s.offset_rad));
+    if s.carried_m > 0.0 {
+        return format!(
+            "once it had gripped it overran again, its sprags with the cage: the inner race has run {offset} towards {}",
+            sense(s.offset_rad)
+        );
+    }
+    let (slip, race) = (sense(s.inner.net_m), sense(s.offset_rad));
     if slip == race {
         return format!("slip has shifted the inner race by {offset} towards {race}");
     }
