@@ -3,7 +3,7 @@
 use crate::program::*;
 use sprag_design::answer::Answer;
 use sprag_design::report::Screen;
-use sprag_design::{Design, Follow, Settings, WedgeCurve, margins};
+use sprag_design::{Design, Follow, Settings, margins};
 
 #[test]
 fn the_multi_arc_design_holds() {
