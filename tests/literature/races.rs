@@ -1,6 +1,7 @@
 //! Rings: Lame, fits, temperature.
 
 use super::{close, design, row, rows};
+use sprag_design::{Design, Outline};
 use std::f64::consts::PI;
 
 /// Lame (Timoshenko and Goodier, art. 28): a ring under pressure p on its bore has there p (b^2+a^2)/(b^2-a^2); under p on
@@ -186,4 +187,34 @@ fn the_radii_to_make_run_as_drawn() {
         row(&as_drawn, "re-engagement").demand_in_unit().unwrap(),
         1e-9,
     );
+}
+
+/// Between warm races first contact lies elsewhere on a sprag that is the same body: its outline weighs what it did, but for its growth,
+/// whichever race is the warmer and whether flanks are parallel or lean.
+#[test]
+fn flanks_stay_on_the_body_between_warm_races() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/starter.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let leaning =
+        text.replace("front_mm = 2.80 }", "front_mm = 2.80, rear_tilt_rad = 0.05, front_tilt_rad = -0.04 }");
+    assert!(leaning != text);
+    let volume_m3 = |design: &Design| {
+        let (sprags, profile) = (&design.clutch.sprags, design.clutch.profile().unwrap());
+        let outline = Outline::closed(&profile, &sprags.flanks.unwrap()).unwrap();
+        outline.mass_properties(sprags.length_m, 1.0).mass_kg
+    };
+    for text in [text, leaning] {
+        let cold = Design::parse(&text, path).unwrap();
+        for [inner_c, sprags_c, outer_c] in [[120.0, 90.0, 60.0], [60.0, 90.0, 100.0], [20.0, 20.0, 20.0]] {
+            let warm = cold
+                .with_values(&[
+                    ("thermal.inner_race_c", inner_c),
+                    ("thermal.sprags_c", sprags_c),
+                    ("thermal.outer_race_c", outer_c),
+                ])
+                .unwrap();
+            let scale = warm.clutch.running.unwrap().sprag_scale;
+            close(volume_m3(&warm), scale.powi(3) * volume_m3(&cold), 1e-12);
+        }
+    }
 }

@@ -282,7 +282,7 @@ class Check(_Common):
     run_out: dict[str, Any] | None
     """Load round the circumference; ``None``: the design names no eccentricity."""
     notes: tuple[str, ...]
-    """What is said of this design beside the rows, warnings first, then how the rows are to be read."""
+    """What is said of this design beside the rows, warnings first, then how the rows are to be read; a line each."""
 
     def margin(self, code: str) -> Margin:
         """The row of that code.
