@@ -155,17 +155,19 @@ fn no_film_row(design: &Design, rows: &[Margin]) -> Option<String> {
     })
 }
 
-/// Which rows are those of the clutch while it turns.
+/// Where the rows at a torque hold where the design names its own speed, and which fail there.
 fn turning(design: &Design, rows: &[Margin]) -> Option<String> {
     let speed = Unit::Rpm.show(design.limits.at_speed_rad_s?, 4);
-    let codes: Vec<String> = rows.iter().filter(|row| row.turns()).map(Margin::code).collect();
+    let fails = |row: &&Margin| row.required && row.turns() && !row.held();
+    let codes: Vec<String> = rows.iter().filter(fails).map(Margin::code).collect();
+    let ends = rows.iter().filter(fails).find(|row| row.overloaded()).and_then(|row| row.end_torque_nm);
+    let ends = ends
+        .map_or(String::new(), |nm| format!(", where the curve ends at {}", Unit::NewtonMetre.show(nm, 4)));
     Some(match codes.as_slice() {
         [] => format!(
-            "Rows at nominal and peak torque hold at rest and at {speed} (at_speed_rpm), and none is worse there"
+            "Rows at nominal and peak torque: at rest or at {speed} (at_speed_rpm), whichever is worse"
         ),
-        codes => {
-            format!("Worse at {speed} (at_speed_rpm) than at rest, and shown for there: {}", codes.join(", "))
-        }
+        codes => format!("Warning: at {speed} (at_speed_rpm){ends}, not held: {}", codes.join(", ")),
     })
 }
 

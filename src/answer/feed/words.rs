@@ -40,8 +40,9 @@ impl FeedAnswer<'_> {
                 significant(case.inertia_kg_m2, 3)
             ),
             "NOT HELD" => format!(
-                "Next: strokes {fewer}, or a difference of {} allowed (--allowed)",
-                Unit::Degree.show(self.off_rad(fed).abs(), 2)
+                "Next: strokes {fewer}, or a difference of {} or more allowed (--allowed)",
+                // Shown so that it suffices.
+                Unit::Degree.show(1.005 * self.off_rad(fed).abs(), 3)
             ),
             "THROWN OUT" => format!(
                 "Next: strokes {fewer}, or a spring that presses more: spring.drag_torque_nm or spring.stiffness_nm_per_rad up"

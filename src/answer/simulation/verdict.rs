@@ -159,7 +159,8 @@ fn on_the_way(s: &Simulation) -> Option<String> {
     let overran = s.engaged.filter(|e| e.t_s > 0.0).map(|e| format!("overran until {}", time(e.t_s)));
     let slipped = (s.inner.distance_m > 0.0)
         .then(|| format!("slipped by {} in all", Unit::Micrometre.show(s.inner.distance_m, 4)));
-    let open = (s.contact_lost_s > 0.0).then(|| format!("lost contact for {}", time(s.contact_lost_s)));
+    let lost = if s.modes.iter().any(|(_, mode)| mode.is_off()) { "had no" } else { "lost" };
+    let open = (s.contact_lost_s > 0.0).then(|| format!("{lost} contact for {}", time(s.contact_lost_s)));
     let parts: Vec<String> = [overran, slipped, open].into_iter().flatten().collect();
     if parts.is_empty() {
         return None;
