@@ -99,7 +99,9 @@ impl ReengagementAnswer<'_> {
                  so are thrown out once the friction is back",
                 Unit::Millimetre.show(end.path_m, 3)
             ));
-            if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
+            // In a driven cage it is a speed of the inner race.
+            let of_outer = self.lift_off_rad_s.filter(|_| !self.design.clutch.slides_outside());
+            if let Some(speed) = of_outer.filter(|speed| *speed <= end.outer_rad_s.abs()) {
                 all.push(format!(
                     "The outer race runs at {}; in steady overrun its sprags lift off from {} on, slower they come back sooner",
                     Unit::Rpm.show(end.outer_rad_s.abs(), 4),
