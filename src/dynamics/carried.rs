@@ -15,13 +15,13 @@
 //! sprag from running ahead. A sprag that tilts ([`super::cage`]) follows without inertia; its alpha counts at first contact.
 //!
 //! Once v_B = 0 the sprag is free, pressed as its spring does between races that stand still against one another: the outer race takes it
-//! forward, away from the cage, and it wedges. Off the outer race it goes on
-//! with the cage, whichever race runs ahead, until the spring brings it back. A sprag that comes down to first contact, or up to
-//! it, slower than the inner race, is taken along again: it and the inner race then have the speed that keeps their momentum.
+//! forward, away from the cage, and it wedges. Off the outer race it goes on with the cage, whichever race runs ahead, until the spring
+//! brings it back. A sprag that comes down to first contact, or up to it, slower than the inner race, is taken along again: it and the
+//! inner race then have the speed that keeps their momentum.
 
 use super::cage::Held;
 use super::model::{Forces, Mode, Model};
-use super::start::SlidingContact;
+use super::start::{SlidingContact, spring_moment_nm};
 use crate::clutch::{Cage, Clutch};
 use crate::numeric::root;
 use crate::wedge::{WedgeCurve, WedgePoint};
@@ -68,35 +68,24 @@ impl Carried {
         let [touching, on_stop] = [self.touching, self.on_stop].map(|held| Held { cage_rad_s, ..held });
         let most_rad = touching.alpha - on_stop.alpha;
         let stop = balanced(model, &on_stop, mu, spin, false);
-        let off_nm = Balanced::opening_nm(model, &on_stop, spin[0]) - closing_nm(model, &on_stop);
+        let opens_nm = on_stop.lifting_nm() + spin[0] * on_stop.slewing_kg_m2(model.inertia_kg_m2);
+        let off_nm = opens_nm - spring_moment_nm(model, on_stop.alpha);
         let of = |b: Balanced, tilt_rad: f64| Ride { n_be: b.n_be, n_bi: b.n_bi, tilt_rad, off_nm };
         if stop.n_be <= 0.0 {
-            return of(Balanced { n_be: 0.0, n_bi: 0.0, ..stop }, most_rad);
+            return of(Balanced { n_be: 0.0, ..stop }, most_rad);
         }
         let inside = balanced(model, &touching, mu, spin, true);
         if inside.n_bi >= 0.0 {
             return of(inside, 0.0);
         }
         if most_rad <= 0.0 || stop.outward_n >= 0.0 {
-            return of(Balanced { n_bi: 0.0, ..stop }, most_rad);
+            return of(stop, most_rad);
         }
         let between = |tilt: f64| balanced(model, &touching.tilted(tilt, 0.0), mu, spin, false);
         let left = |tilt: f64| between(tilt).outward_n;
         let tilt = root::bracketed(0.0, most_rad, left(0.0), stop.outward_n, 1e-15 * most_rad, left);
         let tilt = tilt.unwrap_or(most_rad);
-        of(Balanced { n_bi: 0.0, ..between(tilt) }, tilt)
-    }
-}
-
-/// What the spring closes a sprag with about P, N m.
-fn closing_nm(model: &Model, held: &Held) -> f64 {
-    model.spring_nm_per_rad * (model.alpha_max_rad - held.alpha)
-}
-
-impl Balanced {
-    /// What opens a sprag that B and A do not press about P, the cage accelerated by `w`, N m.
-    fn opening_nm(model: &Model, held: &Held, w: f64) -> f64 {
-        held.lifting_nm() + w * held.slewing_kg_m2(model.inertia_kg_m2)
+        of(between(tilt), tilt)
     }
 }
 
@@ -108,10 +97,10 @@ fn balanced(model: &Model, held: &Held, mu: f64, [w, w_per_n]: Spin, rests: bool
     let of_a = if rests { held.opening_nm(0.0, &none, 1.0)[1] / held.a_ahead_of_p().cos() } else { 0.0 };
     // Outward at P: without B, for a newton of N_be, for a rad/s^2 of the cage.
     let outward = held.outward_n(0.0, &none);
-    let outward_b = held.outward_n(1.0, &b) - held.outward_n(0.0, &b);
+    let outward_b = held.outward_n(1.0, &b) - outward;
     let outward_w = held.outward_of_slewing_kg_m();
     let slewing = held.slewing_kg_m2(model.inertia_kg_m2) - of_a * outward_w;
-    let closes = closing_nm(model, held) - held.lifting_nm() + of_a * outward - slewing * w;
+    let closes = spring_moment_nm(model, held.alpha) - held.lifting_nm() + of_a * outward - slewing * w;
     let n_be = closes / (of_b - of_a * outward_b + slewing * w_per_n);
     let outward_n = outward + outward_b * n_be + outward_w * (w + w_per_n * n_be);
     let n_bi = if rests { -outward_n / held.a_ahead_of_p().cos() } else { 0.0 };
@@ -122,11 +111,6 @@ impl Model {
     /// Friction at B of a carried sprag that slides by `v_b`.
     fn mu_outer(&self, v_b: f64) -> f64 {
         self.friction.coefficient(v_b.abs())
-    }
-
-    /// I_g + m_g OC_g^2, kg m^2.
-    fn orbit_kg_m2(&self, p: &WedgePoint) -> f64 {
-        self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g
     }
 
     /// (How the sprags ride where the curve is `p`, theta_bi''), rad/s^2; `load_nm`: what acts on the inner race beside them; `off`: they are

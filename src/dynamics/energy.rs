@@ -92,7 +92,7 @@ impl Model {
         } else {
             -(self.static_tangential_n(&p, speed) - p.t_static) * p.oa * (p.rho_i + p.rho_e)
         };
-        let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
+        let orbit = self.orbit_kg_m2(&p);
         let slowed = n * (self.inertia_kg_m2 * da + orbit * dp)
             + self.inner_inertia_kg_m2 * di
             + self.outer_inertia_kg_m2 * de;

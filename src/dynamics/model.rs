@@ -257,6 +257,12 @@ impl Model {
         Matrix2::new((i + orbit) / (i * orbit), -1.0 / orbit, -1.0 / orbit, 1.0 / orbit) / self.count
     }
 
+    /// I_g + m_g OC_g^2 of one sprag, kg m^2.
+    #[inline(always)]
+    pub(super) fn orbit_kg_m2(&self, p: &WedgePoint) -> f64 {
+        self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g
+    }
+
     /// Mean speed Omega at `t`, rad/s, and its rate, rad/s^2.
     #[inline]
     pub fn mean_speed(&self, t: f64) -> (f64, f64) {
@@ -400,7 +406,7 @@ impl Model {
             // The film's pressure acts ahead of A: N_bi x_p (1 + rho_i), by virtual work.
             f_alpha += n * n_bi * film.ahead_m(v_a.max(0.0), n_bi) * (1.0 + p.rho_i);
         }
-        let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
+        let orbit = self.orbit_kg_m2(p);
         let f_phi = -n * (2.0 * swing * da * phi_rate + orbit * spin);
         let inverse = self.sprag_inverse(p.oc_g);
         let radial = RADIAL || mode.outer != Grip::Stick;

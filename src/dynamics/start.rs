@@ -91,7 +91,7 @@ pub fn settled(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
 }
 
 /// What the energizing spring presses one sprag in with at `alpha` (rad), N m.
-fn spring_moment_nm(model: &Model, alpha: f64) -> f64 {
+pub(super) fn spring_moment_nm(model: &Model, alpha: f64) -> f64 {
     model.spring_nm_per_rad * (model.alpha_max_rad - alpha)
 }
 

@@ -3,7 +3,7 @@
 use crate::design::Design;
 use crate::margin::{LoadState, Margin};
 use crate::report::{Unit, significant};
-use crate::wedge::{Effort, WedgeCurve};
+use crate::wedge::WedgeCurve;
 use serde::Serialize;
 
 /// The clutch at the largest mean speed at which the design lets it carry torque; absent where it names none.
@@ -43,7 +43,7 @@ impl AtSpeedSection {
         let (scene, speed) =
             turning.filter(|(_, w)| *w > 0.0 && w.is_finite()).max_by(|a, b| a.1.total_cmp(&b.1))?;
         // Scenes have asked for it, as a rule.
-        let curve = state.at_speeds.of(&state.curve, &design.clutch, speed, None, Effort::Full);
+        let curve = state.turning(design, speed).map(|turning| turning.curve);
         let asked_nm = design.limits.largest_torque_nm();
         let friction = |curve: &WedgeCurve| Some(curve.at_torque(asked_nm?)?.required_friction());
         let hoop_pa = state.curve.statics().elastic.outer_race.rotating_bore_hoop_pa(speed);
