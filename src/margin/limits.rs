@@ -19,7 +19,7 @@ pub enum When {
     Overrun,
     /// In each scenario.
     Scene,
-    /// In the sprag's outline, by the optimiser where flanks are variables.
+    /// In the outline of the sprag, in a search.
     Outline,
 }
 

@@ -247,8 +247,8 @@ const ROOM: Limit = Limit {
     when: When::Outline,
     rule: Rule::Difference,
     explanation: "What a flank of the sprag may still move until outline and arcs no longer meet, over its half width, less a \
-                  fixed room. A flank farther out, or arcs that end earlier, leave more. Asked only while flanks are variables of the \
-                  optimiser.",
+                  fixed room where flanks are variables. A flank farther out, or arcs that end earlier, leave more. Asked only in a \
+                  search, of a design with flanks.",
     formula: "half width of the flank less what outline and arcs need to meet, over that half width",
     source: "geometry of the outline",
     of: Of::Room,

@@ -127,13 +127,13 @@ impl Survey<'_, '_> {
             let next = self.most_promising(branches, &left);
             left.retain(|k| !next.contains(k));
             self.desk.begins("search of a whole number");
-            let climb = |&k: &usize| {
+            let climb = |k: usize| {
                 let problem = &branches[k].1;
                 let begun = rescued(self.desk, problem, &self.x, self.bounds, self.method);
                 let from = begun.unwrap_or_else(|| self.x.clone());
                 self.desk.climb(problem, &from, self.bounds, &settings)
             };
-            let ends: Vec<_> = next.par_iter().map(climb).collect();
+            let ends = branches[next[0]].1.climbs.climbs(next.clone(), climb);
             for (k, end) in next.into_iter().zip(ends) {
                 self.end(k, &mut branches[k].0, end, settings.violation_tolerance);
             }

@@ -19,6 +19,11 @@ pub trait Evaluate: Sync {
     fn changes(&self, _x: &[f64], _beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
         None
     }
+
+    /// Whether threads have nothing of their own to do, so that several points are worth evaluating side by side.
+    fn threads_are_free(&self) -> bool {
+        true
+    }
 }
 
 /// Margins at one point.

@@ -170,8 +170,11 @@ impl<'a> Memo<'a> {
         let follow = self.run.follow.clone();
         let stopped = || follow.stopped();
         let problem = self.problem;
-        let computed: Vec<Option<Result<Evaluation, NoEvaluation>>> =
-            fresh.par_iter().map(|x| (!stopped()).then(|| problem.evaluate(x))).collect();
+        let one = |x: &&Vec<f64>| (!stopped()).then(|| problem.evaluate(x));
+        let computed: Vec<Option<Result<Evaluation, NoEvaluation>>> = match problem.threads_are_free() {
+            true => fresh.par_iter().map(one).collect(),
+            false => fresh.iter().map(one).collect(),
+        };
         let complete = computed.iter().all(Option::is_some);
         for (x, outcome) in fresh.into_iter().zip(computed) {
             let Some(outcome) = outcome else { continue };

@@ -29,6 +29,7 @@ mod relief;
 mod robust;
 mod search;
 mod settings;
+mod side_by_side;
 mod smooth;
 mod space;
 mod sqp;

@@ -6,6 +6,7 @@ use super::corner::{Corner, perturbed};
 use super::evaluate::{Evaluation, NoEvaluation};
 use super::goal::{Goal, Measure, measures};
 use super::grid::made;
+use super::side_by_side::SideBySide;
 use super::smooth;
 use crate::clutch::Scenario;
 use crate::design::{Design, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize};
@@ -16,7 +17,6 @@ use crate::margin::{
     run_out_margins, scene_margins, scene_rows, unlike_margins,
 };
 use crate::scenario::{AtRest, Prepared, RollingTrack, Settings, demand, demand_tracked};
-use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
 /// How an evaluation is computed.
@@ -95,6 +95,10 @@ pub struct ClutchProblem {
     as_checked: bool,
     /// Of the latest evaluations.
     recent: slopes::Recent,
+    /// Climbs on it and on what was made of it.
+    pub(super) climbs: SideBySide,
+    /// Whether the sprag has flanks.
+    flanked: bool,
 }
 
 /// Rows of a scene at a corner, by its number.
@@ -111,20 +115,6 @@ struct Way<'a> {
     state: &'a StateAt<'a>,
     loaded: &'a LoadedRows<'a>,
     scene: &'a SceneRows<'a>,
-}
-
-/// Whether an evaluation may share threads: within what shares them already. One that is asked for alone stays on the thread of who
-/// asks, so that a process that was forked needs no pool for it.
-fn shares_threads() -> bool {
-    rayon::current_thread_index().is_some()
-}
-
-/// `of` each of `items`, in their order.
-fn of_each<T: Sync, R: Send>(items: &[T], of: impl Fn((usize, &T)) -> R + Sync) -> Vec<R> {
-    match shares_threads() {
-        true => items.par_iter().enumerate().map(&of).collect(),
-        false => items.iter().enumerate().map(of).collect(),
-    }
 }
 
 /// Everything known of one clutch.
@@ -170,6 +160,8 @@ impl ClutchProblem {
             checked: design.check_scenarios.clone(),
             as_checked: false,
             recent: slopes::Recent::default(),
+            climbs: SideBySide::default(),
+            flanked: design.clutch.sprags.flanks.is_some(),
         }
     }
 
@@ -300,8 +292,9 @@ impl ClutchProblem {
             if self.reserve > 0.0 { format!("reserve {:?}\n", self.reserve) } else { String::new() };
         let links = if links.is_empty() { String::new() } else { format!("{links:?}\n") };
         let quick = if self.quick { "quickly\n" } else { "" };
+        let flanked = if self.flanked && !self.frees_flanks() { "flanked\n" } else { "" };
         format!(
-            "{quick}{links}{reserve}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
+            "{quick}{links}{reserve}{flanked}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
             self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners
         )
     }
@@ -371,10 +364,14 @@ impl ClutchProblem {
         let capacities = if raised { Capacities::Wanted } else { Capacities::LeftOut };
         let mut found = smooth::load_rows(design, &self.limits, capacities, state);
         found.rows.retain(|m| m.required);
-        if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
-            found.rows.extend(smooth::flank_rows(design, state));
-        }
+        let keep = if self.frees_flanks() { smooth::ROOM } else { 0.0 };
+        found.rows.extend(smooth::flank_rows(design, state, keep));
         found
+    }
+
+    /// Whether flanks are variables.
+    fn frees_flanks(&self) -> bool {
+        self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks."))
     }
 
     /// Scenes run at the problem's fidelity.
@@ -389,7 +386,8 @@ impl ClutchProblem {
         let scenes = |wanted: &(dyn Fn(&String) -> bool + Sync)| {
             let asked: Vec<&Scenario> = design.scenarios.iter().filter(|s| wanted(&s.name)).collect();
             let rows =
-                of_each(&asked, |(_, scenario)| (way.scene)(k, scenario, state.at_rest(design))).concat();
+                self.climbs.each(&asked, |(_, scenario)| (way.scene)(k, scenario, state.at_rest(design)));
+            let rows = rows.concat();
             // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
             match rows.iter().find(|r| !r.computed()) {
                 Some(row) => Err(NoEvaluation::Refused(row.full_name())),
@@ -397,8 +395,7 @@ impl ClutchProblem {
             }
         };
         let own = || scenes(&|name| self.scenarios.contains(name));
-        let (mut rows, of_scenes) =
-            if shares_threads() { rayon::join(loaded, own) } else { (loaded(), own()) };
+        let (mut rows, of_scenes) = self.climbs.both(loaded, own);
         rows.extend(of_scenes?);
         let mut measures_of_goals = Vec::new();
         for (k, goal) in self.goals.iter().enumerate() {
@@ -476,7 +473,7 @@ impl ClutchProblem {
             Ok(found)
         };
         let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
-        for found in of_each(&self.corners, at) {
+        for found in self.climbs.each(&self.corners, at) {
             let found = found?;
             all.rows.extend(found.rows);
             all.measures.extend(found.measures);

@@ -7,7 +7,7 @@ use crate::margin::{
 };
 use crate::profile::Outline;
 
-/// Half width that flanks keep beyond what the profile needs, and short of what its arcs reach: a choice. Races under
+/// Half width that flanks that are variables keep beyond what the profile needs, and short of what its arcs reach: a choice. Races under
 /// load move the end of the working profile, and the contact has a width.
 pub(super) const ROOM: f64 = 0.02;
 /// Step of torque, relative, by which the growth of the turn at the curve's end is measured.
@@ -50,12 +50,13 @@ fn profile_short(state: &LoadState, torque: f64) -> f64 {
     left.max(0.0) + (end / torque).min(1.0).powf(power) - 1.0
 }
 
-/// Four rows: what each flank has left inside and outside, less [`ROOM`].
-pub(super) fn flank_rows(design: &Design, state: &LoadState) -> Vec<Margin> {
+/// Four rows: what each flank has left inside and outside, less what it is to `keep`: [`ROOM`] where flanks are variables. A flank that
+/// passes an arc is no clutch: without these rows that is a wall, at which a climb stops.
+pub(super) fn flank_rows(design: &Design, state: &LoadState, keep: f64) -> Vec<Margin> {
     let Some(flanks) = design.clutch.sprags.flanks else { return Vec::new() };
     let Ok(room) = Outline::room(&state.profile, &flanks) else { return Vec::new() };
     let rows = LIMITS.iter().filter(|limit| limit.when == When::Outline).zip(room.into_iter().flatten());
-    rows.map(|(limit, left)| Margin::new(limit, Demand::Value(ROOM), left)).collect()
+    rows.map(|(limit, left)| Margin::new(limit, Demand::Value(keep), left)).collect()
 }
 
 #[cfg(test)]

@@ -2,8 +2,6 @@
 
 use std::cmp::Ordering;
 
-use rayon::prelude::*;
-
 use super::desk::Desk;
 use super::evaluate::Evaluation;
 use super::influence::influence;
@@ -182,17 +180,15 @@ pub(super) fn climb_all(
         desk.begins("search");
         // Those that were known before any of them began, so that none depends on which ends first.
         let met = found.ends.clone();
-        let outcomes: Vec<(String, Result<Outcome, Refusal>)> = std::mem::take(named)
-            .into_par_iter()
-            .map(|(from, x, known)| {
-                let outcome = desk.climb_beside(problem, &x, (lo, hi), &settings, &met);
-                let outcome = match (outcome, known) {
-                    (Err(Refusal::StoppedAtStart), Some(known)) => Ok(Outcome::stopped_at(x, known)),
-                    (outcome, _) => outcome,
-                };
-                (from, outcome)
-            })
-            .collect();
+        let climb = |(from, x, known): (String, Vec<f64>, Option<Evaluation>)| {
+            let outcome = desk.climb_beside(problem, &x, (lo, hi), &settings, &met);
+            let outcome = match (outcome, known) {
+                (Err(Refusal::StoppedAtStart), Some(known)) => Ok(Outcome::stopped_at(x, known)),
+                (outcome, _) => outcome,
+            };
+            (from, outcome)
+        };
+        let outcomes = problem.climbs.climbs(std::mem::take(named), climb);
         outcomes.into_iter().for_each(|(from, outcome)| found.add(from, outcome));
     };
     let wanted_of = |drawn: usize| {

@@ -10,6 +10,7 @@ pub const PEER_A: &str = include_str!("designs/a-huang-at-rest.toml");
 pub const PEER_B: &str = include_str!("designs/b-huang-at-speed.toml");
 pub const PEER_C: &str = include_str!("designs/c-24-sprags.toml");
 pub const PEER_D: &str = include_str!("designs/d-indexing-elastic.toml");
+pub const PEER_E: &str = include_str!("designs/e-starter-eight.toml");
 
 /// `text` with each `from` replaced once.
 pub fn changed(text: &str, changes: &[(&str, &str)]) -> Design {
@@ -249,4 +250,26 @@ fn nothing_that_moves_is_said_at_once() {
         &Desk::new(&Follow::nobody(), &mut Forgetful),
     );
     assert!(matches!(found, Err(NoSearch::NothingMoves(names)) if names == ["width_mm"]));
+}
+
+/// Half of all evaluations of this search went into a flank that passes the inner arc, and six of its climbs ended there, below an
+/// optimum beside it: as a limit it is followed.
+#[test]
+fn a_flank_in_the_way_of_an_arc_is_a_limit_and_no_wall() {
+    let count = "  { name = \"count\", min = 21, max = 25 },\n";
+    let at_25 = [("count = 23", "count = 25"), (count, "")];
+    let found = search_with(
+        &changed(PEER_E, &at_25),
+        &SearchMethod { starts: 8, most_starts: 8, ..Default::default() },
+    );
+    assert!(found.names.limits.iter().any(|code| code == "flank-rear-outside"), "{:?}", found.names.limits);
+    for climb in &found.starts {
+        assert_ne!(climb.ended, Ok(Status::Stalled(Cause::FailingRegion)), "{climb:?}");
+    }
+    assert!(
+        found.objective.1 > 0.45206 && found.evaluations < 800,
+        "{:?} {}",
+        found.objective,
+        found.evaluations
+    );
 }

@@ -10,7 +10,6 @@ use crate::margin::{
 };
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::scenario::{AtRest, Prepared, RollingTrack, demand_read_again, demand_retraced};
-use rayon::prelude::*;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
 
@@ -165,6 +164,10 @@ impl ClutchProblem {
 }
 
 impl Evaluate for ClutchProblem {
+    fn threads_are_free(&self) -> bool {
+        self.climbs.leave_threads()
+    }
+
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         let (found, tracks) = self.tracked(x)?;
         if self.quick {
@@ -189,12 +192,14 @@ impl Evaluate for ClutchProblem {
             Some(known) => known,
             None => self.tracked(x).ok()?.1,
         };
-        let here = self.here(x, &tracks)?;
-        let change = |at: &Vec<f64>| match self.beside(at, &tracks) {
+        let of = |(_, at): (usize, &Vec<f64>)| self.beside(at, &tracks);
+        let (here, there) = self.climbs.both(|| self.here(x, &tracks), || self.climbs.each(beside, of));
+        let here = here?;
+        let change = |there: Option<Vec<f64>>| match there {
             Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
             _ => Vec::new(),
         };
-        let changes: Vec<Vec<f64>> = beside.par_iter().map(change).collect();
+        let changes: Vec<Vec<f64>> = there.into_iter().map(change).collect();
         let answered = Some((beside.to_vec(), changes.clone()));
         self.recent.at(x, |past| past.asked.replace(answered?));
         Some(changes)
