@@ -268,7 +268,10 @@ pub fn unknown(name: &str) -> String {
     let groups = groups();
     let all: Vec<&str> = groups.iter().flat_map(|(_, names)| names.iter().map(String::as_str)).collect();
     let near = did_you_mean(name, &all);
-    format!("nothing is called {name:?}{near}; `explain` alone lists every name")
+    format!(
+        "nothing is called {name:?}{near}; `explain` alone lists every name. A scene has the name that its file gives it: \
+         `explain scenarios` tells what one is, `simulate FILE --scenario NAME` what becomes of it"
+    )
 }
 
 #[cfg(test)]

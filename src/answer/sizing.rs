@@ -5,7 +5,7 @@ use super::check::{
 };
 use super::{ByAlphabet, Finding, Said};
 use crate::clutch::Scenario;
-use crate::design::Design;
+use crate::design::{Design, USUAL_SLIDING_RAD_S};
 use crate::file::shown;
 use crate::follow::Follow;
 use crate::margin::{Demand, Margin, load_state, lowest_capacity, scene_demand, scene_rows};
@@ -260,9 +260,10 @@ fn figures(made: &Made) -> Vec<String> {
     let drag = made.drag.map(|d| match (d.torque_nm > 0.0, d.sliding_rad_s > 0.0) {
         (false, _) => "In overrun as asked for the sprags are off: no drag, no heat".to_owned(),
         (true, false) => format!(
-            "Drag in slow overrun {}: {} of heat at 1000 rpm",
+            "Drag in slow overrun {}: {} of heat at {}",
             Unit::NewtonMetre.show(d.torque_nm, 3),
-            Unit::Watt.show(d.torque_nm * 1000.0 / Unit::Rpm.from_si(1.0), 3)
+            Unit::Watt.show(d.torque_nm * USUAL_SLIDING_RAD_S, 3),
+            Unit::Rpm.show_plain(USUAL_SLIDING_RAD_S, 5)
         ),
         (true, true) => format!(
             "In overrun, sliding at {}: drag {}, heat {}",

@@ -35,7 +35,7 @@ pub fn answer(
     let sized = match sized {
         Ok(sized) => sized,
         Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| (Exit::Failed, None)),
-        Err(ref why @ NoSize::None { tried: ref list }) => {
+        Err(ref why @ NoSize::None { tried: ref list, .. }) => {
             let why = why.to_string().replace("`width`", "--width").replace("`outside`", "--outside");
             let rows = tried(list, None);
             let table = rows.clone().table();

@@ -200,15 +200,18 @@ impl Scenario {
         }
     }
 
-    /// Whether the clutch is to let go: in overrun, where it starts in one, or where the torque turns round.
-    pub fn lets_go(&self) -> bool {
+    /// Whether the clutch is to let go: in overrun, where no torque engages it or where the torque turns round. `None`: a drivetrain
+    /// decides what the clutch is driven with.
+    pub fn lets_go(&self) -> Option<bool> {
         match self.kind {
-            ScenarioKind::Overrun { .. } => true,
-            ScenarioKind::Transient { overrun_rad_s, .. } => {
-                let turns = |h: &Vec<[f64; 2]>| h.iter().any(|row| row[1] < 0.0);
-                overrun_rad_s > 0.0 || self.torque_history.as_ref().is_some_and(turns)
+            ScenarioKind::Overrun { .. } => Some(true),
+            ScenarioKind::Transient { .. } if !self.drivetrain.is_empty() => None,
+            ScenarioKind::Transient { preload_nm, torque_step_nm, .. } => {
+                let rows = self.torque_history.iter().flatten().map(|row| row[1]);
+                let least_nm = rows.fold(preload_nm.min(preload_nm + torque_step_nm), f64::min);
+                Some(least_nm < 0.0 || self.held_torque_nm().is_none())
             }
-            _ => false,
+            _ => Some(false),
         }
     }
 

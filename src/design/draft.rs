@@ -83,6 +83,8 @@ pub struct Draft {
     pub until_rad: f64,
     /// Flanks (rear, front), m; without them mass and centroid are placeholders for statics alone.
     pub flanks_m: Option<(f64, f64)>,
+    /// Pivot (x, y) of a cage that the inner race drives, from C_e, m; `None`: the cage is free.
+    pub pivot_m: Option<[f64; 2]>,
     /// R_id, R_i, R_e, R_ed, m.
     pub races_m: [f64; 4],
     /// Axial width of the races, m.
@@ -91,6 +93,8 @@ pub struct Draft {
     pub spring_nm_per_rad: f64,
     /// C_f, N m.
     pub drag_nm: f64,
+    /// Speed at which the races slide past one another in overrun, rad/s; 0: not said.
+    pub sliding_rad_s: f64,
     /// The steel of sprags and races.
     pub steel: &'static Steel,
     /// mu_s; mu_c is 0.9 of it.
@@ -123,3 +127,18 @@ pub struct Draft {
 
 /// mu_c over mu_s of a draft.
 pub const KINETIC_SHARE: f64 = 0.9;
+
+/// Viscous drag of the races over C_f in the overrun of a draft: a choice. The damper acts on the whole speed at which they slide, so that
+/// one chosen for the swing in engagement would brake the overrun with a multiple of what the clutch carries.
+pub const VISCOUS_SHARE: f64 = 0.1;
+
+/// Speed at which they slide where nobody has said one, rad/s: 1000 rpm.
+pub const USUAL_SLIDING_RAD_S: f64 = 1000.0 * std::f64::consts::PI / 30.0;
+
+impl Draft {
+    /// C_rl, N m s/rad, and the speed at which it makes its share of the drag, rad/s.
+    pub fn viscous_damping(&self) -> (f64, f64) {
+        let sliding = if self.sliding_rad_s > 0.0 { self.sliding_rad_s } else { USUAL_SLIDING_RAD_S };
+        (VISCOUS_SHARE * self.drag_nm / sliding, sliding)
+    }
+}

@@ -149,6 +149,10 @@ impl Groups {
                 self.point(10, *from_m);
                 self.point(11, *to_m);
             }
+            Entity::Point(at_m) => {
+                self.begin("POINT", layer);
+                self.point(10, *at_m);
+            }
             Entity::Text { at_m, height_m, text } => {
                 self.begin("TEXT", layer);
                 self.point(10, *at_m);

@@ -12,7 +12,7 @@ named! {
         Sprag = "SPRAG",
         /// Circles of the races.
         Races = "RACES",
-        /// Centres of arcs, contacts at first contact and the centroid.
+        /// Centres of arcs, contacts at first contact, the centroid and the pivot of a driven cage: a cross and a point.
         Centres = "CENTRES",
         /// Radii from centres to the ends of their arcs; axes.
         CentreLines = "CENTRE_LINES",
@@ -36,9 +36,21 @@ impl Layer {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Entity {
     Closed(Vec<Segment>),
-    Circle { centre_m: Vector2<f64>, radius_m: f64 },
-    Line { from_m: Vector2<f64>, to_m: Vector2<f64> },
-    Text { at_m: Vector2<f64>, height_m: f64, text: String },
+    Circle {
+        centre_m: Vector2<f64>,
+        radius_m: f64,
+    },
+    Line {
+        from_m: Vector2<f64>,
+        to_m: Vector2<f64>,
+    },
+    /// What a CAD program snaps to.
+    Point(Vector2<f64>),
+    Text {
+        at_m: Vector2<f64>,
+        height_m: f64,
+        text: String,
+    },
 }
 
 /// The drawing.
@@ -88,6 +100,7 @@ impl Sheet {
         for way in [Vector2::new(half, 0.0), Vector2::new(0.0, half)] {
             self.line(Layer::Centres, at - way, at + way);
         }
+        self.put(Layer::Centres, Entity::Point(at));
     }
 
     fn text(&mut self, at_m: Vector2<f64>, text: impl Into<String>) {
@@ -191,6 +204,12 @@ impl Sheet {
                 1e3 * g.x,
                 1e3 * g.y
             ));
+        }
+        if let Some(cage) = &subject.clutch.cage {
+            let pivot = Vector2::from(cage.pivot_m);
+            self.cross(pivot, CROSS * self.letter_m);
+            labels.push((pivot, "P".to_owned()));
+            rows.push(format!("PIVOT P OF THE CAGE {:.4}, {:.4}", 1e3 * pivot.x, 1e3 * pivot.y));
         }
         self.labels(labels);
         rows.push(

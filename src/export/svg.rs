@@ -43,7 +43,9 @@ pub fn svg(part: Part, subject: &DrawnClutch) -> String {
             colour(layer)
         );
         for (_, entity) in sheet.entities.iter().filter(|(on, _)| *on == layer) {
-            let _ = writeln!(out, "{}", element(entity));
+            if let Some(element) = element(entity) {
+                let _ = writeln!(out, "{element}");
+            }
         }
         out.push_str("</g>\n");
     }
@@ -51,8 +53,10 @@ pub fn svg(part: Part, subject: &DrawnClutch) -> String {
     out
 }
 
-fn element(entity: &Entity) -> String {
-    match entity {
+/// `None`: a point, whose cross is drawn.
+fn element(entity: &Entity) -> Option<String> {
+    Some(match entity {
+        Entity::Point(_) => return None,
         Entity::Closed(segments) => format!("<path d=\"{}\"/>", path(segments)),
         Entity::Circle { centre_m, radius_m } => {
             let [x, y] = mm(*centre_m);
@@ -72,7 +76,7 @@ fn element(entity: &Entity) -> String {
                 escaped(text)
             )
         }
-    }
+    })
 }
 
 fn path(segments: &[Segment]) -> String {

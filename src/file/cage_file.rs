@@ -1,6 +1,6 @@
 //! `[cage]` as written, and the same in SI.
 //!
-//! In: TOML text, races and sprags as run. Out: [`Cage`]; refused scenarios. Absent: what the cage does (`dynamics`).
+//! In: TOML text, races and sprags as run. Out: [`Cage`], or why there is none. Absent: what the cage does (`dynamics`).
 //! Equations: none of its own; azimuths at first contact are those of `profile`. The doc comments are the schema's
 //! descriptions.
 
@@ -84,6 +84,15 @@ pub(super) fn cage(file: &CageFile, races: &Races, sprags: &Sprags, out: &mut Fi
     let [px, py] = pivot_m;
     let outside = (px * cos - py * sin).hypot(profile.outer_centre_distance_m + px * sin + py * cos);
     let most_um = 1e6 * (outside - radius);
+    if most_um <= 0.0 {
+        out.refuse(
+            &["cage.pivot.y_mm", "cage.pivot.x_mm", "cage"],
+            "a pivot that goes outward when the sprag tilts open about C_e: any y_mm of 0 or less does, a higher one where x_mm is large"
+                .to_owned(),
+            "move the pivot inward: the cage holds it from going outward, and a tilting sprag would draw this one inward".to_owned(),
+        );
+        return None;
+    }
     if file.clearance_um > most_um {
         out.refuse(
             &["cage.clearance_um", "cage"],

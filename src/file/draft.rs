@@ -3,7 +3,9 @@
 //! In: [`Draft`], SI. Out: a complete design file, in the file's units, each value with its source. Absent: how the lengths
 //! were found, whether they make a clutch (parse it). Equations: none.
 
-use crate::design::{BOX, Draft, DraftScene, KINETIC_SHARE, NewScene, RATED_STATIC, RATED_STEP, rpm};
+use crate::design::{
+    BOX, Draft, DraftScene, KINETIC_SHARE, NewScene, RATED_STATIC, RATED_STEP, VISCOUS_SHARE, rpm,
+};
 use crate::numeric::rounded;
 
 impl Draft {
@@ -39,6 +41,17 @@ impl Draft {
         // Without damping the step is felt twice, so that the crest is at nominal torque: 0.6 + 2 * 0.2.
         let (preload, torque_step) =
             (digits(0.6 * self.torques_nm[0], 6), digits(0.2 * self.torques_nm[0], 6));
+        let cage = self.pivot_m.map_or(String::new(), |[x, y]| {
+            format!(
+                "\n# The inner race carries the sprags round; its speed lifts them off the outer one, for the centroid lies ahead of the pivot.\n\
+                 [cage]\ndriven_by = \"inner-race\"\npivot = {{ x_mm = {}, y_mm = {} }}   # choice: three tenths of the way from C_e to C_1, a little \
+                 below; from C_e, as the centroid\n",
+                mm(x),
+                mm(y)
+            )
+        });
+        let (viscous, sliding_rad_s) = self.viscous_damping();
+        let sliding_rpm = rounded(rpm(sliding_rad_s), 7);
         let rpm = |rad_s: f64| digits(rpm(rad_s), 8);
         let contact = ["keep_contact_to_rpm", "lift_off_by_rpm"];
         let asked = contact.into_iter().zip(self.contact_rad_s);
@@ -90,8 +103,8 @@ outer_radius_mm = {outer}
 outer_outside_radius_mm = {outside}
 width_mm = {width}
 {inertias}
-viscous_damping_nm_s_per_rad = 0.1  # assumed
-
+viscous_damping_nm_s_per_rad = {viscous}  # choice: {viscous_share} of drag_torque_nm where the races slide past one another at {sliding} rpm
+{cage}
 [spring]
 stiffness_nm_per_rad = {spring}
 drag_torque_nm = {drag}
@@ -151,6 +164,9 @@ seed = 1
             count = self.count,
             until = digits(self.until_rad, 4),
             width = mm(self.width_m),
+            viscous = digits(viscous, 3),
+            sliding = sliding_rpm,
+            viscous_share = VISCOUS_SHARE,
             spring = digits(self.spring_nm_per_rad, 4),
             drag = digits(self.drag_nm, 4),
             steel = self.steel.name,

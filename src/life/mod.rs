@@ -144,6 +144,11 @@ impl Used {
     pub fn lives(&self) -> Option<f64> {
         self.sum.map(|sum| if sum > 0.0 { 1.0 / sum } else { f64::INFINITY })
     }
+
+    /// Whether it is used up before the end of the life; not where its strength is not given.
+    pub fn is_up(&self) -> bool {
+        self.sum.is_some_and(|sum| sum > 1.0)
+    }
 }
 
 /// All of it.
@@ -177,7 +182,7 @@ impl Life {
             && self.slipping().is_none()
             && !self.indents()
             && !self.slips_too_often()
-            && self.used.iter().all(|u| u.sum.is_none_or(|sum| sum <= 1.0))
+            && !self.used.iter().any(Used::is_up)
     }
 
     /// Whether the largest load indents a contact.

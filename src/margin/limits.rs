@@ -159,9 +159,9 @@ impl Limit {
         self.key == Some("along_mpa")
     }
 
-    /// Whether demand and allowable are coefficients of friction: the grip of a contact.
+    /// Whether demand and allowable are coefficients of friction: the grip of a contact, and that of one that slides.
     pub fn is_grip(&self) -> bool {
-        self.code.starts_with("grip-")
+        self.code.starts_with("grip-") || matches!(self.of, Of::ReEngagement)
     }
 
     /// Allowable, SI, and whether it counts for the verdict, of what a static state demands.

@@ -3,6 +3,7 @@
 use super::demand::RollingDemand;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
+use super::simulate::SLIPPED_M;
 use crate::dynamics::{
     EnergyBalance, Engaged, FastMotion, Hold, Jump, Mode, Neglected, Overrun, Peaks, Rubbed, Sample,
     SlipRecord, SlipWork, Stop, TrainRun,
@@ -132,6 +133,16 @@ pub struct Simulation {
 }
 
 impl Simulation {
+    /// Path that A slipped towards engaging, m: under a load that friction does not hold.
+    pub fn slipped_engaging_m(&self) -> f64 {
+        0.5 * (self.inner.distance_m - self.inner.net_m)
+    }
+
+    /// Whether that is slip.
+    pub fn slips_under_load(&self) -> bool {
+        self.slipped_engaging_m() > SLIPPED_M
+    }
+
     /// All slip at contact 0 (A) or 1 (B); `None` where it has not slipped.
     pub fn slipped(&self, contact: usize) -> Option<SlipWork> {
         self.slip_heat[contact].map(|heat| heat.whole)

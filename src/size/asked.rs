@@ -218,7 +218,7 @@ pub const ASKED: [WishNumber; 14] = [
     WishNumber {
         key: "lift-off-rpm",
         words: "Speed of the outer race by which the sprags must be off the inner race, rpm",
-        help: "; 0: they stay on",
+        help: "; of the inner race, off the outer one, in a cage that it drives, where the outer race stands; 0: they stay on",
         question: Some(" (0: they stay on)"),
         unnamed: Unnamed::FollowsOrZero,
         at: |w| &mut w.lift_off_rad_s,

@@ -281,7 +281,8 @@ fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Ve
             .filter(|&w| w > 0.0)
             .map(|w| format!("contact kept up to {} rpm{kept}", rpm(w))),
     );
-    asked.extend(wanted.lift_off_rad_s.map(|w| format!("lifted off by {} rpm{off}", rpm(w))));
+    let of_inner = if wanted.carried { " of the inner race, in a cage that it drives" } else { "" };
+    asked.extend(wanted.lift_off_rad_s.map(|w| format!("lifted off by {} rpm{of_inner}{off}", rpm(w))));
     let space_mm = short((draft.races_m[2] - draft.races_m[1]) * 1e3);
     let left = least.map_or_else(String::new, |r| {
         format!(" (least margin {} %, {})", rounded(100.0 * r.margin(), 3), r.code())

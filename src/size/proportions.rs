@@ -84,10 +84,12 @@ pub(super) fn draft(wanted: &Requirements, space_m: f64, [wall, outside]: [f64; 
         centre_distance_m: centre_distance_m(track, outer, r_i, r_e, wanted.friction / RESERVE),
         until_rad: 1.2,
         flanks_m: None,
+        pivot_m: wanted.carried.then(|| pivot_m(track, outer, r_e, wanted.friction / RESERVE)),
         races_m: [bore, track, outer, outside],
         width_m: 0.0,
         spring_nm_per_rad: 0.0,
         drag_nm: 0.0,
+        sliding_rad_s: wanted.sliding_rad_s(),
         steel: wanted.steel,
         friction: wanted.friction,
         friction_from: wanted.from[0],
@@ -124,13 +126,30 @@ pub(super) fn spring(draft: &mut Draft, normal_n: f64) {
     draft.spring_nm_per_rad = 0.01 * normal_n / 1.245 * (outer - track) / 8.33e-3;
 }
 
+/// Pivot of a driven cage: its azimuth over that of C_1, ahead of C_e, and its depth below C_e over the race space. A choice, some way from
+/// either end: behind the centroid, so that speed lifts the sprags off; ahead of C_e, so that play in the pocket tilts them by little; as
+/// deep as in `designs/lift-off-inner.toml`, so that they come back at the speed at which they lift off.
+const PIVOT: [f64; 2] = [0.3, 0.035];
+
+/// Pivot (x, y) from C_e, m.
+fn pivot_m(inner_m: f64, outer_m: f64, r_e: f64, tan: f64) -> [f64; 2] {
+    let y = -PIVOT[1] * (outer_m - inner_m);
+    let azimuth = PIVOT[0] * beta(inner_m, outer_m, tan);
+    [to_step((outer_m - r_e + y) * azimuth.tan(), ARC_STEP_M), to_step(y, ARC_STEP_M)]
+}
+
 /// e_1 for which tan omega at first contact is `tan`.
 ///
-/// tan omega = R_e sin beta/(R_e cos beta - R_i) gives sin(omega - beta) = sin omega R_i/R_e; then e_1 closes triangle (9)
-/// of the centres, R_i + r_i and R_e - r_e from O under beta.
+/// e_1 closes triangle (9) of the centres, R_i + r_i and R_e - r_e from O under beta.
 fn centre_distance_m(inner_m: f64, outer_m: f64, r_i: f64, r_e: f64, tan: f64) -> f64 {
-    let omega = tan.atan();
-    let beta = omega - (omega.sin() * inner_m / outer_m).asin();
+    let beta = beta(inner_m, outer_m, tan);
     let (a, b) = (inner_m + r_i, outer_m - r_e);
     (a * a + b * b - 2.0 * a * b * beta.cos()).sqrt()
+}
+
+/// beta at first contact, rad, for which tan omega is `tan`: tan omega = R_e sin beta/(R_e cos beta - R_i) gives
+/// sin(omega - beta) = sin omega R_i/R_e.
+fn beta(inner_m: f64, outer_m: f64, tan: f64) -> f64 {
+    let omega = tan.atan();
+    omega - (omega.sin() * inner_m / outer_m).asin()
 }

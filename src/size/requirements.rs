@@ -37,6 +37,9 @@ pub struct Requirements {
     pub keep_contact_rad_s: Option<f64>,
     /// Speed of the outer race by which the sprags have lifted off, rad/s.
     pub lift_off_rad_s: Option<f64>,
+    /// Whether a cage carries the sprags with the inner race, whose speed the two before then mean: they are to lift off, and the outer race
+    /// stands in overrun.
+    pub carried: bool,
     /// Static friction mu_s.
     pub friction: f64,
     /// Where friction, nominal and peak torque come from, for the file's comments.
@@ -60,6 +63,8 @@ pub const PEAK_OVER_NOMINAL: f64 = 1.3;
 
 /// Where a value comes from that somebody named.
 pub(super) const NAMED: &str = "asked for";
+/// The same of a race that overruns as fast as the sprags are to lift off.
+const LIFT_OFF_SPEED: &str = "the speed of lift-off";
 
 /// Shear of a solid shaft in the bore beyond which the bore is no shaft's, Pa: ten times what the hardest steels bear.
 const NO_SHAFT_PA: f64 = 1e10;
@@ -166,9 +171,25 @@ impl Wish {
 
     /// Refuse a speed of lift-off that the outer race does not reach.
     fn check_lift_off(&self, wanted: &Requirements) -> Result<(), BadRequirement> {
-        let (Some(lift), [_, outer]) = (wanted.lift_off_rad_s, wanted.overrun_rad_s) else { return Ok(()) };
+        let (Some(lift), [inner, outer]) = (wanted.lift_off_rad_s, wanted.overrun_rad_s) else {
+            return Ok(());
+        };
+        if wanted.carried && lift > inner * (1.0 + 1e-9) {
+            return Err(BadRequirement {
+                what: "lift-off-rpm",
+                found: format!(
+                    "{}, while the inner race turns at {} in overrun ({})",
+                    show(lift),
+                    show(inner),
+                    wanted.overrun_from[0]
+                ),
+                allowed: "up to the speed of the inner race in overrun, inner-rpm: where the outer race stands a cage carries the sprags with \
+                          the inner one; 0: they stay on"
+                    .to_owned(),
+            });
+        }
         let outer_known = self.outer_rad_s.is_some() || self.purpose.is_some();
-        if outer_known && lift > outer * (1.0 + 1e-9) {
+        if !wanted.carried && outer_known && lift > outer * (1.0 + 1e-9) {
             return Err(BadRequirement {
                 what: "lift-off-rpm",
                 found: format!(
@@ -178,8 +199,8 @@ impl Wish {
                     wanted.overrun_from[1]
                 ),
                 allowed: "up to the speed of the outer race in overrun, outer-rpm: these sprags ride with it, and nothing else throws them off \
-                          the inner race; 0: they stay on. Sprags that a cage carries with the inner race lift off the outer one: the table [cage], which new \
-                          does not write (guide, overrun)"
+                          the inner race; 0: they stay on. Where the outer race stands (outer-rpm 0) a cage carries them with the inner race, and they \
+                          lift off the outer one"
                     .to_owned(),
             });
         }
@@ -238,6 +259,11 @@ impl Wish {
         let raised_keep = self.outer_rad_s.filter(|outer| follows && keep.is_some_and(|keep| *outer > keep));
         let keep = raised_keep.or(keep);
         let inner = self.inner_rad_s.or(of(|p| p.overrun_rpm[0].value).map(rad_s));
+        let carried = self.lift_off_rad_s.is_some_and(|lift| lift != 0.0) && outer == Some(0.0);
+        let raised_inner = self
+            .lift_off_rad_s
+            .filter(|lift| carried && self.inner_rad_s.is_none() && inner.is_none_or(|inner| *lift > inner));
+        let inner = raised_inner.or(inner);
         let said = |value: Option<f64>, other: &'static str| value.map_or(other, |_| NAMED);
         let usual = self.purpose.and_then(|p| p.excitation);
         let amplitude_nm = self.swing_nm.or(usual.map(|e| e.share.value * torque_nm)).filter(|nm| *nm != 0.0);
@@ -264,6 +290,7 @@ impl Wish {
             overrun_rad_s: [inner.unwrap_or(0.0), outer.unwrap_or(0.0)],
             keep_contact_rad_s: keep.filter(|&w| w != 0.0),
             lift_off_rad_s: lift.filter(|&w| w != 0.0),
+            carried,
             friction: self.friction.or(of(|p| p.friction.value)).unwrap_or(FRICTION),
             from: [
                 said(self.friction, self.purpose.map_or("GMN 9050", |p| p.friction.from)),
@@ -271,11 +298,17 @@ impl Wish {
                 said(self.peak_nm, by_ratio),
             ],
             overrun_from: [
-                said(self.inner_rad_s, self.purpose.map_or("at rest", |p| p.overrun_rpm[0].from)),
+                said(
+                    self.inner_rad_s,
+                    match raised_inner {
+                        Some(_) => LIFT_OFF_SPEED,
+                        None => self.purpose.map_or("at rest", |p| p.overrun_rpm[0].from),
+                    },
+                ),
                 said(
                     self.outer_rad_s,
                     match raised {
-                        Some(_) => "the speed of lift-off",
+                        Some(_) => LIFT_OFF_SPEED,
                         None => self.purpose.map_or("as contact is kept to", |p| p.overrun_rpm[1].from),
                     },
                 ),

@@ -48,6 +48,15 @@ pub struct Sized {
     pub taken: usize,
 }
 
+/// A clutch that does it beyond a size that was asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Freed {
+    /// Its outer diameter, m, where it is that which is larger.
+    pub outside_m: Option<f64>,
+    /// Its width, m, where it is that which is larger.
+    pub width_m: Option<f64>,
+}
+
 /// Why there is none.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoSize {
@@ -57,6 +66,8 @@ pub enum NoSize {
     None {
         /// Those tried.
         tried: Vec<Tried>,
+        /// What would do where a size that was asked for is left out.
+        freed: Vec<Freed>,
     },
 }
 
@@ -64,9 +75,10 @@ impl fmt::Display for NoSize {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Requirements(why) => write!(f, "{why}"),
-            Self::None { tried } => {
+            Self::None { tried, freed } => {
                 let best = tried.iter().max_by(|a, b| a.carries_nm.total_cmp(&b.carries_nm));
-                match best.filter(|b| b.carries_nm > 0.0) {
+                let nearest = best.filter(|b| b.carries_nm > 0.0);
+                match nearest {
                     Some(b) => write!(
                         f,
                         "no clutch of this family does it; the nearest carries {} Nm with {} sprags of {:.1} mm in a race space of \
@@ -78,9 +90,28 @@ impl fmt::Display for NoSize {
                         b.decided_by
                     ),
                     None => write!(f, "no clutch of this family fits this bore:{}", first_reason(tried)),
+                }?;
+                let end = if nearest.is_some() { "; " } else { "\n" };
+                match freed.as_slice() {
+                    [] => Ok(()),
+                    some => {
+                        let each: Vec<String> = some.iter().map(Freed::to_string).collect();
+                        write!(f, "{end}what would do: {}", each.join(", or "))
+                    }
                 }
             }
         }
+    }
+}
+
+impl fmt::Display for Freed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let more = [("outside", self.outside_m), ("width", self.width_m)];
+        let each: Vec<String> = more
+            .into_iter()
+            .filter_map(|(key, m)| Some(format!("`{key}` {} mm", (m? * 1e4 - 1e-6).ceil() / 10.0)))
+            .collect();
+        f.write_str(&each.join(" with "))
     }
 }
 
@@ -124,12 +155,41 @@ fn least(draft: &Draft) -> Result<(f64, Decider), Decider> {
 /// [`NoSize`].
 pub fn size(wanted: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
     wanted.check().map_err(NoSize::Requirements)?;
+    found(wanted, settings).map_err(|tried| NoSize::None { tried, freed: freed(wanted, settings) })
+}
+
+/// The smallest of every race space, or those tried.
+fn found(wanted: &Requirements, settings: &Settings) -> Result<Sized, Vec<Tried>> {
     let tried: Vec<Tried> =
         SPACES_M.iter().filter_map(|&space_m| smallest(wanted, space_m, settings)).collect();
     let made = tried.iter().enumerate().filter_map(|(i, t)| Some((i, t.volume_m3, t.made.clone()?)));
     match made.min_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((taken, _, made)) => Ok(Sized { made, tried, taken }),
-        None => Err(NoSize::None { tried }),
+        None => Err(tried),
+    }
+}
+
+/// What does it without each of the sizes that were asked for, and, where neither alone is enough, without both.
+fn freed(wanted: &Requirements, settings: &Settings) -> Vec<Freed> {
+    let without = |outside: bool, width: bool| {
+        let free = Requirements {
+            outside_m: wanted.outside_m.filter(|_| !outside),
+            width_m: wanted.width_m.filter(|_| !width),
+            ..*wanted
+        };
+        let races = found(&free, settings).ok()?.made.design.clutch.races;
+        let beyond = |m: f64, most: Option<f64>| Some(m).filter(|m| most.is_some_and(|most| *m > most));
+        Some(Freed {
+            outside_m: beyond(2.0 * races.outer_outside_radius_m, wanted.outside_m),
+            width_m: beyond(races.width_m, wanted.width_m),
+        })
+    };
+    let asked = [wanted.outside_m.is_some(), wanted.width_m.is_some()];
+    let one = [(true, false), (false, true)].into_iter().zip(asked).filter(|(_, asked)| *asked);
+    let one: Vec<Freed> = one.filter_map(|((outside, width), _)| without(outside, width)).collect();
+    match one.is_empty() && asked == [true, true] {
+        true => without(true, true).into_iter().collect(),
+        false => one,
     }
 }
 

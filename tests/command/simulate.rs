@@ -1,6 +1,9 @@
 //! `simulate` from outside, on the paper's clutch: verdicts, figures, keys, files, exit codes.
 
 use serde_json::Value;
+use sprag_design::answer::simulation::SimulationSettings;
+use sprag_design::answer::{Answer, Provenance};
+use sprag_design::{Design, Scenario};
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
@@ -384,6 +387,48 @@ fn the_sentence_of_a_verdict_goes_its_way() {
         line.contains("slips-engaging") && line.contains("towards engaging, yet the inner race"),
         "{line}"
     );
+}
+
+/// A torque that turns round is overrun, and no friction is asked to hold it: painted as held where the clutch carries what comes before, as
+/// broken where it slips there. What a drivetrain makes of it is the drive's.
+#[test]
+fn a_torque_that_turns_round_is_judged_by_what_it_carries_before() {
+    let painted = |file: &str, scene: &str, change: &dyn Fn(&mut Scenario)| {
+        let mut design = Design::read(file.as_ref()).unwrap();
+        change(design.scenarios.iter_mut().find(|s| s.name == scene).unwrap());
+        let settings = SimulationSettings::default();
+        let answer = sprag_design::answer::simulation::simulate(&design, scene, &settings).unwrap();
+        let page = answer.page(&Provenance::default()).to_html();
+        let class = ["held", "broken", "mixed", "said"];
+        let class = class.into_iter().find(|class| page.contains(&format!("class=\"verdict {class}\"")));
+        assert_eq!(answer.held(), class == Some("held"));
+        (class.unwrap(), answer.verdict())
+    };
+    let turned = |friction: f64| {
+        move |scene: &mut Scenario| {
+            scene.torque_history =
+                Some(vec![[0.0, 0.0], [0.02, 16.8], [0.025, 16.8], [0.03, -5.0], [0.1, -5.0]]);
+            (scene.clutch.friction.static_, scene.clutch.friction.kinetic) = (friction, friction);
+        }
+    };
+    let bench = "designs/huang2017-bench.toml";
+    let (class, verdict) = painted(bench, "in-and-out", &turned(0.12));
+    assert_eq!(class, "held", "{verdict}");
+    assert!(
+        verdict.contains("as its torque has it") && verdict.ends_with("under load it does not slip"),
+        "{verdict}"
+    );
+    let (class, verdict) = painted(bench, "in-and-out", &turned(0.081));
+    assert_eq!(class, "broken", "{verdict}");
+    assert!(
+        verdict.contains("under load it slips by 26.") && !verdict.contains("would suffice"),
+        "{verdict}"
+    );
+    // The torque falls and stays positive: it is to hold.
+    let (class, verdict) = painted(bench, "step-down", &|_| ());
+    assert!(class == "broken" && verdict.contains("would suffice"), "{class}: {verdict}");
+    let (class, verdict) = painted("designs/starter-engine.toml", "fires", &|_| ());
+    assert!(class == "said" && verdict.ends_with("under load it does not slip"), "{class}: {verdict}");
 }
 
 #[test]

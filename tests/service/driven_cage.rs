@@ -4,8 +4,11 @@ use crate::program::*;
 use nalgebra::{Matrix2, Matrix3, Matrix4, Vector2, Vector3};
 use sprag_design::Design;
 use sprag_design::answer::overrun::{OverrunQuestion, RunningRace};
+use sprag_design::answer::{Answer, Provenance};
 use sprag_design::dynamics::CageFacts;
+use sprag_design::follow::Follow;
 use sprag_design::margin::{LoadState, lift_off_rad_s, load_state, overrun_at};
+use sprag_design::report::Screen;
 use std::f64::consts::PI;
 
 const FILE: &str = "designs/lift-off-inner.toml";
@@ -184,6 +187,10 @@ fn a_pivot_below_the_centroid_or_ahead_of_it_never_lets_go() {
     }
     let (design, state) = at("0.05");
     assert!(lift_off_rad_s(&design, &state, 6000.0).is_some());
+    // What would let them off is said.
+    let said = |x: &str| at(x).0.check(&Follow::nobody()).unwrap().text(Screen::default());
+    assert!(said("0.12").contains("a larger sprags.centroid.x_mm, or by a smaller cage.pivot.x_mm"));
+    assert!(!said("0.05").contains("a larger sprags.centroid.x_mm"));
 }
 
 /// The speed that a tilt takes, with G turned about P in Cartesian coordinates, against what the first order says.
@@ -279,6 +286,11 @@ fn what_would_have_other_sprags_is_refused() {
         (text(&[("pivot = { x_mm = 0.15", "pivot = { x_mm = 0.40")]), "cage.pivot.x_mm", "between the lines"),
         (text(&[("pivot = { x_mm = 0.15", "pivot = { x_mm = 0.0")]), "cage.pivot.x_mm", "above 0"),
         (text(&[("y_mm = -0.50", "y_mm = 9.0")]), "cage.pivot.y_mm", "between the tracks"),
+        (
+            text(&[("y_mm = -0.50", "y_mm = 4.0")]),
+            "cage.pivot.y_mm",
+            "goes outward when the sprag tilts open",
+        ),
         (text(&[("inertia_kg_m2 = 4.0e-4", "inertia_kg_m2 = -1")]), "cage.inertia_kg_m2", "0"),
         (text(&[("inertia_kg_m2 = 4.0e-4", "clearance_um = -1")]), "cage.clearance_um", "0"),
         (
@@ -309,6 +321,24 @@ fn the_commands_say_which_race_is_meant() {
         "Nm at 900 rpm of the inner race",
     ] {
         assert!(check.contains(words), "{check}");
+    }
+}
+
+/// Between lift-off and the latest at which it may be, the verdict says so, and is not plain.
+#[test]
+fn a_lift_off_that_may_come_later_has_its_say() {
+    let (design, state) = changed(&[]);
+    let facts = CageFacts::of(&design.clutch, &state.curve, state.alpha_max_rad).unwrap();
+    let latest_rpm = LIFT_OFF_RPM * (1.0 + facts.lift_off_higher);
+    assert!(facts.lift_off_higher > 0.1);
+    for (rpm, perhaps) in
+        [(0.98 * LIFT_OFF_RPM, false), (0.5 * (LIFT_OFF_RPM + latest_rpm), true), (1.02 * latest_rpm, false)]
+    {
+        let question = OverrunQuestion { speeds_rad_s: vec![rad_s(rpm)], ..Default::default() };
+        let answer = design.overrun(&question).unwrap();
+        let (verdict, page) = (answer.verdict(), answer.page(&Provenance::default()).to_html());
+        assert_eq!(verdict.contains("which is as late as"), perhaps, "{rpm}: {verdict}");
+        assert_eq!(page.contains("class=\"verdict mixed\""), perhaps, "{rpm}");
     }
 }
 

@@ -2,8 +2,10 @@
 
 use crate::program::*;
 use sprag_design::answer::feed::{FeedSettings, NoFeed};
+use sprag_design::answer::{Answer, Provenance};
 use sprag_design::dynamics::Stop;
 use sprag_design::feed::{Fed, Strokes, fed};
+use sprag_design::report::Screen;
 use sprag_design::{Design, Follow, WedgeCurve};
 use std::f64::consts::TAU;
 
@@ -53,8 +55,8 @@ fn a_stronger_spring_feeds_as_it_should_at_faster_strokes() {
     };
     let found = design.feed(&asked).unwrap();
     let [weak, own, strong] = found.springs.as_slice() else { panic!("{:?}", found.springs) };
-    assert!(own.limit_hz.is_some() && own.limit_hz == found.limit_hz, "{own:?}");
-    assert_eq!(own.lost, found.list.iter().find(|fed| fed.frequency_hz == 80.0).cloned());
+    assert!(own.limit_hz.is_some() && own.limit_hz == found.climb.limit_hz, "{own:?}");
+    assert_eq!((own.lost.as_ref(), found.climb.lost_between), (found.climb.lost.as_ref(), true));
     let limits = [weak, own, strong].map(|spring| spring.limit_hz.unwrap_or(0.0));
     let grows = [limits[1] / limits[0], limits[2] / limits[1]];
     assert!(grows.iter().all(|times| (1.4..2.6).contains(times)), "{limits:?}");
@@ -189,6 +191,51 @@ fn the_command_answers_and_refuses() {
     // The inertia of the file is named as such.
     let by_file = stdout(&feed(&["--stroke", "30", "--brake", "100", "--frequency", "1"]));
     assert!(by_file.contains("races.inner_inertia_kg_m2"), "{by_file}");
+}
+
+/// Between the frequencies asked for it is looked too: a loss there is told, beside those that are held.
+#[test]
+fn a_loss_between_frequencies_that_are_held_is_found() {
+    let design = Design::read(FILE.as_ref()).unwrap();
+    let ask = |frequencies_hz: &[f64], allowed_deg: f64| {
+        let settings = FeedSettings {
+            stroke_rad: 30_f64.to_radians(),
+            frequencies_hz: frequencies_hz.to_vec(),
+            brake_nm: Some(100.0),
+            inertia_kg_m2: Some(0.02),
+            allowed_rad: allowed_deg.to_radians(),
+            ..FeedSettings::default()
+        };
+        design.feed(&settings).unwrap()
+    };
+    let both = [4.0, 7.0];
+    let answer = ask(&both, 0.1);
+    assert!(answer.held() && answer.list.iter().all(|fed| fed.ended.is_none()));
+    let lost = answer.climb.lost.clone().unwrap();
+    assert!(answer.climb.lost_between && lost.frequency_hz > both[0] && lost.frequency_hz < both[1]);
+    let off = |hz: f64| (found(&case(hz)).error_rad + answer.windup_rad).to_degrees().abs();
+    let limit_hz = answer.climb.limit_hz.unwrap();
+    assert!(
+        off(lost.frequency_hz) > 0.1 && off(limit_hz) <= 0.1 && limit_hz < lost.frequency_hz,
+        "{limit_hz}"
+    );
+    let words = Answer::verdict(&answer);
+    assert!(
+        words.starts_with("HELD at all 2 frequencies up to") && words.contains("NOT BETWEEN THEM: at"),
+        "{words}"
+    );
+    assert!(answer.page(&Provenance::default()).to_html().contains("class=\"verdict mixed\""));
+    // Where nothing is lost that is said too, and of a single frequency that it is alone.
+    let wide = ask(&[1.0, 2.0], 0.1);
+    let words = Answer::verdict(&wide);
+    // ln 2/ln 1.06 is 11.9: eleven between.
+    assert!(
+        wide.climb.looks == 11 && words.contains("and between them, in steps of 6.0 % or less"),
+        "{words}"
+    );
+    let one = ask(&[1.0], 0.1);
+    assert!(one.climb.looks == 0 && one.text(Screen::default()).contains("this frequency alone"));
+    assert!(one.text(Screen::default()).contains("an estimate"));
 }
 
 #[test]

@@ -115,8 +115,21 @@ fn the_verdict_tells_of_indentation_of_slips_and_of_what_is_not_known() {
         ("static = 0.11 ", "static = 0.20 "),
     ];
     let (held, verdict, body) = said(&one);
-    assert!(!held && verdict.starts_with("NOT HELD: 1100 Nm indents a contact; pitting of"), "{verdict}");
+    assert!(
+        !held && verdict.starts_with("NOT HELD: 1100 Nm indents a contact in its first engagement; "),
+        "{verdict}"
+    );
+    assert!(!verdict.contains("decides"), "{verdict}");
     assert_eq!(body["indents"], true);
+    // A thousand of them pit it too, which takes longer than the first.
+    let thousand = ("{ torque_nm = 600.0, engagements = 2e3 }", "{ torque_nm = 1100.0, engagements = 1e6 }");
+    let (_, verdict, body) = said(&[thousand, one[1]]);
+    let used_up = |place: &serde_json::Value| place["lives"].as_f64().is_some_and(|lives| lives < 1.0);
+    assert!(body["places"].as_array().unwrap().iter().any(used_up), "{body}");
+    assert!(
+        verdict.starts_with("NOT HELD: 1100 Nm indents a contact in its first engagement; "),
+        "{verdict}"
+    );
     let (held, verdict, _) = said(&[("slips_allowed = 600", "slips_allowed = 100")]);
     assert!(
         !held && verdict.starts_with("NOT HELD: 133 slips by chance are expected in the life, 100 are"),

@@ -97,6 +97,7 @@ struct Dxf {
     circles: Vec<([f64; 2], f64, String)>,
     header: BTreeMap<String, String>,
     texts: Vec<String>,
+    points: Vec<[f64; 2]>,
 }
 
 fn read_dxf(text: &str) -> Dxf {
@@ -104,7 +105,8 @@ fn read_dxf(text: &str) -> Dxf {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len() % 2, 0);
     let groups: Vec<(i32, &str)> = lines.chunks(2).map(|g| (g[0].trim().parse().unwrap(), g[1])).collect();
-    let mut out = Dxf { outlines: vec![], circles: vec![], header: BTreeMap::new(), texts: vec![] };
+    let mut out =
+        Dxf { outlines: vec![], circles: vec![], header: BTreeMap::new(), texts: vec![], points: vec![] };
     for pair in groups.windows(2).filter(|p| p[0].0 == 9) {
         out.header.insert(pair[0].1.to_owned(), pair[1].1.trim().to_owned());
     }
@@ -141,6 +143,10 @@ fn read_dxf(text: &str) -> Dxf {
                 out.circles.push(([number(10), number(20)], number(40), own[&8].to_owned()));
             }
             "TEXT" => out.texts.push(own[&1].to_owned()),
+            "POINT" => {
+                assert_eq!(own[&8], "CENTRES");
+                out.points.push([number(10), number(20)]);
+            }
             _ => {}
         }
     }
@@ -188,6 +194,22 @@ fn a_dxf_holds_the_arcs_of_the_outline() {
             }
         }
     }
+}
+
+/// Centres of arcs, the centroid and the pivot of a cage are points to snap to.
+#[test]
+fn a_dxf_of_a_sprag_marks_its_centres_its_centroid_and_its_pivot() {
+    for design in designs() {
+        let (clutch, profile, outline) = closed(&design);
+        let drawn = read_dxf(&with(&design, |s| dxf(Part::Sprag, s)));
+        let marked = |at: [f64; 2]| drawn.points.iter().any(|p| apart(*p, at.map(|m| 1e3 * m)) < 1e-9);
+        assert!(profile.arcs.iter().all(|arc| marked(arc.centre_m.into())), "{}", design.name);
+        assert!(marked([0.0; 2]) && marked(outline.mass_properties(1.0, 1.0).centroid_m), "{}", design.name);
+        assert_eq!(clutch.cage.is_some(), drawn.texts.iter().any(|text| text.starts_with("PIVOT P")));
+        assert!(clutch.cage.is_none_or(|cage| marked(cage.pivot_m)), "{}", design.name);
+    }
+    let caged = designs().into_iter().filter(|design| design.clutch.cage.is_some()).count();
+    assert!(caged > 0);
 }
 
 #[test]

@@ -8,9 +8,9 @@ use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::Design;
 use sprag_design::margin::{Capacities, load_margins, load_state, margins};
 use sprag_design::material::steel;
-use sprag_design::scenario::{Settings, prepare};
+use sprag_design::scenario::{Settings, Verdict, prepare, simulate};
 use sprag_design::size::{
-    Decider, NoSize, PURPOSES, Requirements, Sized, Tried, WARMER_K, Wish, purpose, size,
+    Decider, Freed, NoSize, PURPOSES, Requirements, Sized, Tried, WARMER_K, Wish, purpose, size,
 };
 
 fn stderr(output: &std::process::Output) -> String {
@@ -131,11 +131,12 @@ fn the_width_is_the_shortest_that_the_limits_allow() {
 #[test]
 fn what_is_impossible_names_the_limit_and_the_nearest() {
     let ask = ask(40.0, 50_000.0, 0.0, 1.3, 0.11);
-    let Err(NoSize::None { tried }) = sized(&ask) else { panic!("50 kNm on 40 mm") };
+    let Err(why @ NoSize::None { .. }) = sized(&ask) else { panic!("50 kNm on 40 mm") };
+    let NoSize::None { tried, .. } = &why else { unreachable!() };
     let best = tried.iter().map(|t| t.carries_nm).fold(0.0, f64::max);
     assert!(best > 1000.0 && best < 50_000.0, "{tried:?}");
-    let why = NoSize::None { tried }.to_string();
-    assert!(why.contains("nearest carries") && why.contains("stopped by"), "{why}");
+    let words = why.to_string();
+    assert!(words.contains("nearest carries") && words.contains("stopped by"), "{words}");
     // What is said to be possible is possible.
     let nearly = Requirements { torque_nm: 0.9 * best, peak_nm: 0.9 * 1.3 * best, ..ask };
     assert!(sized(&nearly).is_ok(), "{best}");
@@ -143,12 +144,12 @@ fn what_is_impossible_names_the_limit_and_the_nearest() {
 
 #[test]
 fn a_bore_without_room_for_the_family_says_how_many_sprags_it_has_room_for() {
-    let Err(NoSize::None { tried }) = sized(&ask(2000.0, 1e5, 0.0, 1.3, 0.11)) else { panic!("2 m") };
+    let Err(NoSize::None { tried, .. }) = sized(&ask(2000.0, 1e5, 0.0, 1.3, 0.11)) else { panic!("2 m") };
     assert!(
         tried.len() == 7 && tried.iter().all(|t| t.decided_by == Decider::Count && t.count > 120),
         "{tried:?}"
     );
-    let why = NoSize::None { tried }.to_string();
+    let why = NoSize::None { tried, freed: Vec::new() }.to_string();
     assert!(why.contains("race space 25.00 mm: room for 343 sprags, the family has 8 to 120"), "{why}");
 }
 
@@ -229,9 +230,16 @@ fn what_an_engineer_asks_for_is_kept_or_named_as_what_prevents_it() {
         let r = made.design.clutch.races;
         assert!(2.0 * r.outer_outside_radius_m <= most[0] + 1e-9 && r.width_m <= most[1] + 1e-9, "{r:?}");
     }
-    let Err(NoSize::None { tried }) = sized(&Wish { outside_m: Some(0.06), ..asked }.requirements()) else {
+    let tight = Wish { outside_m: Some(0.06), ..asked };
+    let Err(why @ NoSize::None { .. }) = sized(&tight.requirements()) else {
         panic!("60 mm about a bore of 40")
     };
+    let NoSize::None { tried, freed } = &why else { unreachable!() };
+    // What to give more of is said, and does.
+    let [Freed { outside_m: Some(outside_m), width_m: None }] = freed.as_slice() else { panic!("{freed:?}") };
+    let told = (outside_m * 1e4 - 1e-6).ceil() / 10.0;
+    assert!(why.to_string().ends_with(&format!("what would do: `outside` {told} mm")), "{why}");
+    assert!(sized(&Wish { outside_m: Some(told / 1e3), ..asked }.requirements()).is_ok());
     assert!(tried.iter().any(|t| t.decided_by == Decider::Outside), "{tried:?}");
     // A peak alone is a nominal torque by the factor.
     let peak = Wish { torque_nm: None, peak_nm: Some(780.0), ..asked }.requirements();
@@ -260,6 +268,52 @@ fn sprags_that_are_to_lift_off_are_off_by_that_speed_and_on_below() {
     let off = sprag_design::margin::lift_off_rad_s(&made.design, &state, rad_s(2000.0)).unwrap();
     assert!(rad_s(250.0) < off && off < rad_s(900.0), "{off}");
     assert_eq!(made.drag.unwrap().torque_nm, 0.0);
+}
+
+/// A backstop whose inner race runs fast: a cage on that race, and a centroid ahead of its pivot.
+#[test]
+fn a_backstop_that_is_to_lift_off_has_a_cage_and_does() {
+    let rad_s = |rpm: f64| rpm * PI / 30.0;
+    let ask = Wish {
+        purpose: purpose("backstop"),
+        lift_off_rad_s: Some(rad_s(1500.0)),
+        inner_rad_s: Some(rad_s(1800.0)),
+        ..wish(40.0, 400.0)
+    };
+    let made = sized(&ask.check().unwrap()).unwrap().made;
+    assert!(made.design.clutch.cage.is_some() && made.design.source.contains("[cage]"));
+    let state = load_state(&made.design).unwrap();
+    let off = sprag_design::margin::lift_off_rad_s(&made.design, &state, rad_s(2000.0)).unwrap();
+    assert!(off < rad_s(1500.0), "{off}");
+    assert_eq!(made.drag.unwrap().torque_nm, 0.0);
+    let at =
+        |rpm: f64| sprag_design::margin::overrun_at(&made.design, &state, 0.0, rad_s(rpm)).unwrap().state;
+    assert!(at(100.0).sliding_n > 0.0 && at(1500.0).sliding_n == 0.0);
+    // Without the wish there is none.
+    assert!(
+        sized(&Wish { lift_off_rad_s: None, ..ask }.check().unwrap())
+            .unwrap()
+            .made
+            .design
+            .clutch
+            .cage
+            .is_none()
+    );
+}
+
+/// The damper between the races brakes the overrun by a tenth of the spring's drag, not by a multiple of all drag.
+#[test]
+fn the_damping_of_a_new_clutch_is_a_small_part_of_its_drag() {
+    for (name, rpm) in [("two-speed", 1000.0), ("helicopter", 6000.0), ("starter", 900.0)] {
+        let ask = Wish { purpose: purpose(name), ..wish(40.0, 400.0) };
+        let design = sized(&ask.check().unwrap()).unwrap().made.design;
+        let [viscous, spring] =
+            [design.clutch.races.viscous_damping_nm_s_per_rad, design.clutch.spring.drag_torque_nm];
+        assert!((viscous * rpm * PI / 30.0 / spring - 0.1).abs() < 1e-3, "{name}: {viscous} {spring}");
+        // Overrun ends in a grip without a jump that throws the sprags off.
+        let engage = simulate(design.scenario("engage").unwrap(), &Settings::default()).unwrap();
+        assert_eq!((engage.verdict, engage.contact_lost_s), (Some(Verdict::Sticks), 0.0), "{name}");
+    }
 }
 
 #[test]
@@ -343,12 +397,12 @@ fn the_race_that_runs_ahead_is_the_one_that_was_asked_for() {
 #[test]
 fn an_outer_diameter_that_is_too_small_names_the_one_that_would_do() {
     let asked = Wish { outside_m: Some(0.06), ..wish(40.0, 600.0) };
-    let Err(NoSize::None { tried }) = sized(&asked.requirements()) else { panic!("60 mm do") };
+    let Err(NoSize::None { tried, .. }) = sized(&asked.requirements()) else { panic!("60 mm do") };
     let barred: Vec<&Tried> = tried.iter().filter(|t| t.decided_by == Decider::Outside).collect();
     assert!(!barred.is_empty() && barred.iter().all(|t| t.outside_m > 0.06 + 1e-6));
     let wider = Wish { outside_m: Some(barred[0].outside_m + 1e-6), ..asked };
     let again = match sized(&wider.requirements()) {
-        Ok(Sized { tried, .. }) | Err(NoSize::None { tried }) => tried,
+        Ok(Sized { tried, .. }) | Err(NoSize::None { tried, .. }) => tried,
         Err(why) => panic!("{why}"),
     };
     let same = again.iter().find(|t| t.space_m == barred[0].space_m).unwrap();
@@ -364,8 +418,17 @@ fn wishes_that_cannot_be_are_refused_in_words() {
     assert!(inches.contains("1.378 mm") && inches.contains("an inch is 25.4"), "{inches}");
     assert!(wish(40.0, 5e4).check().is_ok());
     let rad_s = |rpm: f64| Some(rpm * PI / 30.0);
-    let held = why(Wish { purpose: purpose("Backstop"), lift_off_rad_s: rad_s(300.0), ..wish(80.0, 6000.0) });
-    assert!(held.contains("lift-off-rpm: found 300 rpm") && held.contains("turns at 0 rpm"), "{held}");
+    let backstop = Wish { purpose: purpose("Backstop"), lift_off_rad_s: rad_s(300.0), ..wish(80.0, 6000.0) };
+    let slow = why(Wish { outer_rad_s: rad_s(50.0), ..backstop });
+    assert!(slow.contains("lift-off-rpm: found 300 rpm") && slow.contains("turns at 50 rpm"), "{slow}");
+    // Its outer race stands: the inner one throws them off, and runs as fast as that.
+    let carried = backstop.check().unwrap();
+    assert!(
+        carried.carried && (carried.overrun_rad_s[0] - rad_s(300.0).unwrap()).abs() < 1e-9,
+        "{carried:?}"
+    );
+    let slow = why(Wish { inner_rad_s: rad_s(200.0), ..backstop });
+    assert!(slow.contains("inner race turns at 200 rpm") && slow.contains("inner-rpm"), "{slow}");
     let keep =
         why(Wish { purpose: purpose("starter"), keep_contact_rad_s: rad_s(1500.0), ..wish(35.0, 420.0) });
     assert!(keep.contains("keep-contact-rpm: found 1500 rpm; allowed: up to 900 rpm"), "{keep}");

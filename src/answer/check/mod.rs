@@ -61,6 +61,8 @@ pub struct CheckAnswer {
     pub left_out: Vec<LeftOut>,
     /// The figures by their keys in JSON.
     pub body: CheckBody,
+    /// What the text says beside the table; the body has all of it.
+    notes: text::Notes,
 }
 
 /// How far off a check is.
@@ -233,8 +235,10 @@ impl Design {
             hertz_at_junctions_relative: straddling_error(&self.clutch),
         };
         let mut body = CheckBody::new(&rows, source);
-        body.notes = text::Notes::of(self, &rows, &body).all();
-        Ok(CheckAnswer { design: self.clone(), state, rows, static_rows, scenes, errors, left_out, body })
+        let notes = text::Notes::of(self, &rows, &body);
+        body.notes = notes.all();
+        let design = self.clone();
+        Ok(CheckAnswer { design, state, rows, static_rows, scenes, errors, left_out, body, notes })
     }
 }
 

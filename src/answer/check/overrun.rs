@@ -1,6 +1,6 @@
 //! Overrun in the margin check: words, JSON, table.
 
-use crate::answer::overrun::usual_speeds_rad_s;
+use crate::answer::overrun::{SHOWN_LATER, usual_speeds_rad_s};
 use crate::design::{Design, Limits};
 use crate::dynamics::CageFacts;
 use crate::follow::Follow;
@@ -217,6 +217,9 @@ pub struct CageSection {
     pub lift_off_later_per_um: f64,
     /// Whether the sprags come back to the outer race at the speed of lift-off; else at a lower one.
     pub comes_back_there: bool,
+    /// Whether the centroid follows from flanks.
+    #[serde(skip)]
+    of_flanks: bool,
 }
 
 impl CageSection {
@@ -230,6 +233,21 @@ impl CageSection {
             clearance_um: Unit::Micrometre.from_si(design.clutch.cage?.clearance_m),
             lift_off_later_per_um: 1e-6 * facts.lift_off_higher_per_m,
             comes_back_there: facts.opens_softly,
+            of_flanks: design.clutch.sprags.flanks.is_some(),
+        })
+    }
+
+    /// What would let sprags lift off that speed presses on.
+    fn never_lifts(&self) -> Option<String> {
+        (self.pivot_ahead_of_centroid_deg >= 0.0).then(|| {
+            format!(
+                ", for speed presses them on: they lift off where the centroid lies ahead of the pivot, by {}, or by a smaller \
+                 cage.pivot.x_mm",
+                match self.of_flanks {
+                    true => "flanks of the sprags with more front_mm or less rear_mm",
+                    false => "a larger sprags.centroid.x_mm",
+                }
+            )
         })
     }
 }
@@ -422,7 +440,8 @@ impl OverrunSection {
         if let Some(cage) = &self.cage {
             let Some(rpm) = lift_off_rpm else {
                 return format!(
-                    "Sprags keep contact with the outer race up to {searched_to_rpm:.0} rpm of the inner race at least"
+                    "Sprags keep contact with the outer race up to {searched_to_rpm:.0} rpm of the inner race at least{}",
+                    cage.never_lifts().unwrap_or_default()
                 );
             };
             if rpm <= 0.0 {
@@ -447,7 +466,7 @@ impl OverrunSection {
                     um => format!("beyond the {} µm of the file", significant(um, 3)),
                 },
                 match cage.lift_off_later_at_most {
-                    later if later >= 0.005 => format!(
+                    later if later >= SHOWN_LATER => format!(
                         "; up to {} later if the inner race, not the cage, took them along while the drag was measured",
                         Unit::Percent.show(later, 2)
                     ),

@@ -57,8 +57,8 @@ impl Notes {
     }
 
     /// All of them.
-    pub(super) fn all(self) -> Vec<String> {
-        self.of_design.into_iter().chain(self.reading).collect()
+    pub(super) fn all(&self) -> Vec<String> {
+        self.of_design.iter().chain(&self.reading).cloned().collect()
     }
 }
 
@@ -66,16 +66,18 @@ impl Notes {
 pub(super) fn text(check: &CheckAnswer, screen: Screen, reading: bool) -> String {
     let (design, body) = (&check.design, &check.body);
     let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(screen);
-    let notes = Notes::of(design, &check.rows, body);
+    let notes = &check.notes;
     let left = match notes.reading.len() {
         0 => None,
         1 => Some("How to read the table, a note: --notes or --json".to_owned()),
         many => Some(format!("How to read the table, {many} notes: --notes or --json")),
     };
-    let lines =
-        [body.verdict(), size_line(design)].into_iter().chain(body.capacity_lines()).chain(notes.of_design);
+    let lines = [body.verdict(), size_line(design)]
+        .into_iter()
+        .chain(body.capacity_lines())
+        .chain(notes.of_design.clone());
     let lines: Vec<String> = match reading {
-        true => lines.chain(notes.reading).collect(),
+        true => lines.chain(notes.reading.clone()).collect(),
         false => lines.chain(left).collect(),
     };
     format!("{}  {}\n\n{table}\n{}\n", design.name, design.short_hash(), lines.join("\n"))

@@ -26,8 +26,12 @@ pub struct FeedBody<'a> {
     pub held: bool,
     /// What turns with the fed race, this included, kg m^2.
     pub inertia_kg_m2: f64,
-    /// The frequency at which it first ceases to feed as it should, Hz; null: not between two that were asked for.
+    /// The frequency at which it first ceases to feed as it should on the way up, Hz; null: nowhere, or already at the first.
     pub limit_hz: Option<f64>,
+    /// How many frequencies between those that were asked for were looked at.
+    pub looks: usize,
+    /// The first that was met beyond `limit_hz`, Hz, where it lies between two that were asked for.
+    pub lost_between_hz: Option<f64>,
     /// Each other spring, a row of [`FeedAnswer::by_spring`].
     pub springs: Rows<&'a SpringFeed>,
     /// Angle that the driving race turns by and back, deg.
@@ -51,7 +55,14 @@ impl<'a> FeedBody<'a> {
             driver: answer.driving_race(),
             allowed_deg: degrees(answer.allowed_rad),
             windup_deg: degrees(answer.windup_rad),
-            limit_hz: answer.limit_hz,
+            limit_hz: answer.climb.limit_hz,
+            looks: answer.climb.looks,
+            lost_between_hz: answer
+                .climb
+                .lost
+                .as_ref()
+                .filter(|_| answer.climb.lost_between)
+                .map(|lost| lost.frequency_hz),
             bears_nm: bears.map(|b| b.0),
             bears_by: bears.map(|b| b.1.as_str()),
             frequencies: answer.frequencies(),

@@ -16,7 +16,7 @@ use crate::feed::{Fed, Strokes, fed};
 use crate::follow::Follow;
 use crate::margin::load_state;
 use crate::report::plot::Curve;
-use crate::report::{Page, Plot, Screen, Table, Unit, plain};
+use crate::report::{Page, Plot, Screen, Table, Tone, Unit, plain};
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -72,15 +72,31 @@ pub struct FeedAnswer<'a> {
     pub list: Vec<Fed>,
     /// Frequencies that were asked for.
     pub asked: usize,
+    /// Whether it was stopped between them.
+    stopped_between: bool,
     /// Springs that were asked for.
     pub springs_asked: usize,
-    /// The frequency, Hz, at which it first ceases to feed as it should on the way up, where that lies between two that were asked for; it
-    /// may do so again beyond.
-    pub limit_hz: Option<f64>,
+    /// The way up through the frequencies that were asked for and between them.
+    pub climb: Climb,
     /// The same for each other spring that was asked for.
     pub springs: Vec<SpringFeed>,
     /// Peak torque that every limit bears, N m, and the limit that sets it.
     pub bears: Option<(f64, String)>,
+}
+
+/// The way up through frequencies and between them, in steps of at most [`STEP`], to the first one at which strokes do not feed as they
+/// should.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Climb {
+    /// How many frequencies between those that were asked for were looked at.
+    pub looks: usize,
+    /// The frequency, Hz, at which it first ceases to feed as it should; it may do so again beyond. `None`: nowhere, or already at the
+    /// first.
+    pub limit_hz: Option<f64>,
+    /// The first that was met beyond it, asked for or between two that were.
+    pub lost: Option<Fed>,
+    /// Whether that is between two that were asked for.
+    pub lost_between: bool,
 }
 
 /// How far strokes feed as they should with another spring.
@@ -90,9 +106,9 @@ pub struct SpringFeed {
     pub factor: f64,
     /// Drag torque of the whole clutch with it, N m.
     pub drag_torque_nm: f64,
-    /// As [`FeedAnswer::limit_hz`]; `None`: all frequencies are held, or not even the first.
+    /// As [`Climb::limit_hz`].
     pub limit_hz: Option<f64>,
-    /// The first frequency that was asked for whose strokes do not feed as they should; `None`: all are held.
+    /// The first frequency on the way up whose strokes do not feed as they should; `None`: all are held.
     pub lost: Option<Fed>,
 }
 
@@ -135,8 +151,8 @@ fn typed(value: f64) -> String {
     plain(value, 9)
 }
 
-/// Steps in which a frequency that is lost is looked for between one that is held and one that is not: a choice.
-pub(super) const LOOKS: usize = 16;
+/// Largest ratio of one frequency that is looked at to the next: a choice.
+pub const STEP: f64 = 1.06;
 /// Halvings of a ratio of frequencies between one that is held and one that is not.
 const HALVINGS: usize = 5;
 
@@ -209,8 +225,9 @@ impl Design {
             windup_rad,
             list: Vec::new(),
             asked: list.len(),
+            stopped_between: false,
             springs_asked: settings.springs.len(),
-            limit_hz: None,
+            climb: Climb::default(),
             springs: Vec::new(),
             bears,
         };
@@ -219,7 +236,11 @@ impl Design {
             let Some(stroke) = found.stroke(&self.clutch, frequency_hz, follow)? else { return Ok(found) };
             found.list.push(stroke);
         }
-        found.limit_hz = found.limit(&self.clutch, &found.list, follow)?;
+        let Some(climb) = found.climb(&self.clutch, &found.list, follow)? else {
+            found.stopped_between = true;
+            return Ok(found);
+        };
+        found.climb = climb;
         for &factor in &settings.springs {
             let Some(spring) = found.with_spring(factor, list, follow)? else { return Ok(found) };
             found.springs.push(spring);
@@ -235,29 +256,40 @@ impl FeedAnswer<'_> {
         Ok(Some(stroke).filter(|stroke| stroke.ended != Some(Stop::Interrupted)))
     }
 
-    /// The frequency at which strokes first cease to feed as they should, Hz, where that lies between two of `list` and nobody stops the
-    /// search for it.
-    fn limit(&self, clutch: &Clutch, list: &[Fed], follow: &Follow) -> Result<Option<f64>, NoFeed> {
-        let lost = list.iter().position(|fed| !self.feeds(fed));
-        let Some(k) = lost.filter(|k| *k > 0) else { return Ok(None) };
-        let (mut held_hz, mut lost_hz) = (list[k - 1].frequency_hz, list[k].frequency_hz);
-        // Held and lost may alternate: the first loss of a walk up is what is halved.
-        let ratio = (lost_hz / held_hz).powf(1.0 / LOOKS as f64);
-        for _ in 1..LOOKS {
-            let next_hz = held_hz * ratio;
-            let Some(stroke) = self.stroke(clutch, next_hz, follow)? else { return Ok(None) };
-            if !self.feeds(&stroke) {
-                lost_hz = next_hz;
-                break;
+    /// The way up through `list` and between; `None`: stopped.
+    fn climb(&self, clutch: &Clutch, list: &[Fed], follow: &Follow) -> Result<Option<Climb>, NoFeed> {
+        let mut climb = Climb::default();
+        if list.first().is_none_or(|first| !self.feeds(first)) {
+            return Ok(Some(climb));
+        }
+        for pair in list.windows(2) {
+            let (mut held_hz, top) = (pair[0].frequency_hz, &pair[1]);
+            let steps = ((top.frequency_hz / held_hz).ln() / STEP.ln()).ceil().max(1.0);
+            let ratio = (top.frequency_hz / held_hz).powf(1.0 / steps);
+            // Held and lost may alternate: the first loss of the walk up is what is halved.
+            for _ in 1..steps as usize {
+                let Some(stroke) = self.stroke(clutch, held_hz * ratio, follow)? else { return Ok(None) };
+                climb.looks += 1;
+                if !self.feeds(&stroke) {
+                    climb.lost = Some(stroke);
+                    climb.lost_between = true;
+                    break;
+                }
+                held_hz = stroke.frequency_hz;
             }
-            held_hz = next_hz;
+            let lost = climb.lost.take().or_else(|| Some(top.clone()).filter(|top| !self.feeds(top)));
+            let Some(lost) = lost else { continue };
+            let mut lost_hz = lost.frequency_hz;
+            for _ in 0..HALVINGS {
+                let middle_hz = (held_hz * lost_hz).sqrt();
+                let Some(stroke) = self.stroke(clutch, middle_hz, follow)? else { return Ok(None) };
+                if self.feeds(&stroke) { held_hz = middle_hz } else { lost_hz = middle_hz }
+            }
+            climb.looks += HALVINGS;
+            (climb.limit_hz, climb.lost) = (Some(held_hz), Some(lost));
+            break;
         }
-        for _ in 0..HALVINGS {
-            let middle_hz = (held_hz * lost_hz).sqrt();
-            let Some(stroke) = self.stroke(clutch, middle_hz, follow)? else { return Ok(None) };
-            if self.feeds(&stroke) { held_hz = middle_hz } else { lost_hz = middle_hz }
-        }
-        Ok(Some(held_hz))
+        Ok(Some(climb))
     }
 
     /// The same with a spring of `factor` times stiffness and drag torque, on the way up through `list`, Hz; `None`: stopped.
@@ -274,9 +306,9 @@ impl FeedAnswer<'_> {
                 break;
             }
         }
-        let limit_hz = self.limit(&clutch, &up, follow)?;
-        let lost = up.pop().filter(|stroke| !self.feeds(stroke));
-        Ok((!follow.stopped()).then_some(SpringFeed { factor, drag_torque_nm, limit_hz, lost }))
+        let Some(climb) = self.climb(&clutch, &up, follow)? else { return Ok(None) };
+        let lost = climb.lost.or_else(|| up.pop().filter(|stroke| !self.feeds(stroke)));
+        Ok(Some(SpringFeed { factor, drag_torque_nm, limit_hz: climb.limit_hz, lost }))
     }
 
     /// Feed of a stroke less that of slow ones, rad.
@@ -329,7 +361,7 @@ impl Said for FeedAnswer<'_> {
     }
 
     fn outcome(&self) -> Finding {
-        if self.list.len() < self.asked || self.springs.len() < self.springs_asked {
+        if self.list.len() < self.asked || self.stopped_between || self.springs.len() < self.springs_asked {
             Finding::Stopped
         } else if self.list.iter().any(|fed| fed.ended.is_some_and(Stop::gave_up)) {
             Finding::NotKnown
@@ -340,6 +372,16 @@ impl Said for FeedAnswer<'_> {
 
     fn verdict(&self) -> String {
         self.verdict_words()
+    }
+
+    fn banner(&self) -> (Tone, String) {
+        let tone = match self.outcome() {
+            Finding::Held if self.climb.lost_between => Tone::Soft,
+            Finding::Held => Tone::Good,
+            Finding::NotHeld | Finding::Stopped => Tone::Bad,
+            Finding::Shown | Finding::NotKnown => Tone::Plain,
+        };
+        (tone, self.verdict())
     }
 
     fn remarks(&self) -> Vec<String> {

@@ -1,8 +1,9 @@
 //! What strokes come to, in words: the verdict, which number to change, what the answer rests on.
 
-use super::{FeedAnswer, LOOKS};
+use super::{FeedAnswer, STEP};
 use crate::answer::inertia::{InertiaFrom, inertia_from};
 use crate::answer::{Finding, Said};
+use crate::feed::Fed;
 use crate::report::{Unit, significant};
 
 impl FeedAnswer<'_> {
@@ -20,13 +21,34 @@ impl FeedAnswer<'_> {
         )
     }
 
+    /// The first frequency that was asked for at which strokes do not feed, else the first between.
+    fn first_lost(&self) -> Option<&Fed> {
+        self.list.iter().find(|fed| !self.feeds(fed)).or(self.climb.lost.as_ref())
+    }
+
+    /// What strokes that do not feed do.
+    fn loss(&self, fed: &Fed) -> String {
+        let hz = Unit::Hertz.show(fed.frequency_hz, 3);
+        match self.word(fed) {
+            "NOT HELD" => format!(
+                "at {hz} a stroke feeds {} {} than slow ones, {} is allowed",
+                Unit::Degree.show(self.off_rad(fed).abs(), 3),
+                if self.off_rad(fed) > 0.0 { "more" } else { "less" },
+                Unit::Degree.show(self.allowed_rad, 3)
+            ),
+            "THROWN OUT" => format!("at {hz} the sprags are thrown out of reach of their spring"),
+            "OVERLOADED" => format!("at {hz} the clutch is wound up beyond what it bears"),
+            _ => format!("at {hz} the strokes were not followed to their end"),
+        }
+    }
+
     /// Which number to change, and towards where, after strokes that do not feed.
     pub(super) fn next_step(&self) -> Option<String> {
         let case = &self.case;
-        let fed = self.list.iter().find(|fed| !self.feeds(fed))?;
+        let fed = self.first_lost()?;
         let hz = Unit::Hertz.show(fed.frequency_hz, 3);
         let ratio = (fed.frequency_hz / case.runs_on_from_hz()).powi(2);
-        let fewer = match self.limit_hz {
+        let fewer = match self.climb.limit_hz {
             Some(limit) => format!("up to {} (--frequency)", Unit::Hertz.show(limit, 3)),
             None => format!("fewer than {hz} (--frequency)"),
         };
@@ -67,43 +89,44 @@ impl FeedAnswer<'_> {
         let hertz = |hz: f64| Unit::Hertz.show(hz, 3);
         let degrees = |rad: f64| Unit::Degree.show(rad, 3);
         if self.outcome() == Finding::Stopped {
-            return match self.list.len() < self.asked {
-                true => format!("stopped after {} of {} frequencies", self.list.len(), self.asked),
-                false => format!("stopped after {} of {} springs", self.springs.len(), self.springs_asked),
+            return match (self.list.len() < self.asked, self.stopped_between) {
+                (true, _) => format!("stopped after {} of {} frequencies", self.list.len(), self.asked),
+                (false, true) => format!("stopped between the {} frequencies", self.asked),
+                (false, false) => {
+                    format!("stopped after {} of {} springs", self.springs.len(), self.springs_asked)
+                }
             };
         }
         let rests = self.rests_on();
         let (first, last) = (&self.list[0], &self.list[self.list.len() - 1]);
+        let steps = format!("in steps of {} or less", Unit::Percent.show(STEP - 1.0, 2));
+        let first_fails = |limit_hz: f64| {
+            format!(
+                "on the way up from {}, {steps}, it first fails beyond {}",
+                hertz(first.frequency_hz),
+                hertz(limit_hz)
+            )
+        };
         if self.is_held() {
+            let at = match self.list.len() {
+                1 => hertz(last.frequency_hz),
+                n => format!("all {n} frequencies up to {}", hertz(last.frequency_hz)),
+            };
+            let between = match (&self.climb.lost, self.climb.limit_hz) {
+                (Some(lost), Some(limit_hz)) => {
+                    format!(", NOT BETWEEN THEM: {}; {}", self.loss(lost), first_fails(limit_hz))
+                }
+                _ if self.climb.looks > 0 => format!(" and between them, {steps}"),
+                _ => String::new(),
+            };
             return format!(
-                "HELD at {}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake{rests}",
-                match self.list.len() {
-                    1 => hertz(last.frequency_hz),
-                    n => format!("all {n} frequencies up to {}", hertz(last.frequency_hz)),
-                },
+                "HELD at {at}{between}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake{rests}",
                 degrees(-last.error_rad),
                 degrees(self.case.stroke_rad),
                 degrees(self.windup_rad)
             );
         }
-        let why =
-            self.list.iter().find(|fed| !self.feeds(fed)).map_or(String::new(), |fed| match self.word(fed) {
-                "NOT HELD" => format!(
-                    "at {} a stroke feeds {} {} than slow ones, {} is allowed",
-                    hertz(fed.frequency_hz),
-                    degrees(self.off_rad(fed).abs()),
-                    if self.off_rad(fed) > 0.0 { "more" } else { "less" },
-                    degrees(self.allowed_rad)
-                ),
-                "THROWN OUT" => format!(
-                    "at {} the sprags are thrown out of reach of their spring",
-                    hertz(fed.frequency_hz)
-                ),
-                "OVERLOADED" => {
-                    format!("at {} the clutch is wound up beyond what it bears", hertz(fed.frequency_hz))
-                }
-                _ => format!("at {} the strokes were not followed to their end", hertz(fed.frequency_hz)),
-            });
+        let why = self.first_lost().map_or(String::new(), |fed| self.loss(fed));
         let lost = self.list.iter().position(|fed| !self.feeds(fed)).unwrap_or(0);
         let held: Vec<String> = self.list[lost..]
             .iter()
@@ -115,14 +138,8 @@ impl FeedAnswer<'_> {
         } else {
             format!(", and is held again at {}", held.join(", "))
         };
-        match self.limit_hz {
-            Some(limit) => {
-                format!(
-                    "NOT HELD: {why}; on the way up from {} it first fails beyond {} (looked for in {LOOKS} steps){again}{rests}",
-                    hertz(first.frequency_hz),
-                    hertz(limit)
-                )
-            }
+        match self.climb.limit_hz {
+            Some(limit_hz) => format!("NOT HELD: {why}; {}{again}{rests}", first_fails(limit_hz)),
             None => format!("NOT HELD: {why}, already at the slowest that was asked for{again}{rests}"),
         }
     }
@@ -158,7 +175,21 @@ impl FeedAnswer<'_> {
                 )
             }
         };
+        let between = match (self.list.len(), self.climb.lost.as_ref()) {
+            (0 | 1, _) => "Looked at is this frequency alone: another may feed more or less".to_owned(),
+            (_, Some(lost)) => format!(
+                "Looked at between the frequencies too, {} more, up to {}; beyond, those of the table alone",
+                self.climb.looks,
+                Unit::Hertz.show(lost.frequency_hz, 3)
+            ),
+            (_, None) if self.climb.looks > 0 => format!(
+                "Looked at between the frequencies too, {} more; a band narrower than their steps is not seen",
+                self.climb.looks
+            ),
+            (_, None) => "Looked at are the frequencies of the table alone".to_owned(),
+        };
         vec![
+            between,
             format!(
                 "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m²{whose}, stands under a brake of {}",
                 Unit::Degree.show(case.stroke_rad, 4),
@@ -167,7 +198,8 @@ impl FeedAnswer<'_> {
             ),
             format!(
                 "Slow strokes feed the stroke less the windup at that torque, {}; where the inertia asks for more than \
-                 the brake, the fed race runs on, from {} on",
+                 the brake, the fed race runs on: an estimate, as if it went with the driving race, is from {} on; what it does is in the \
+                 table",
                 Unit::Degree.show(self.windup_rad, 4),
                 Unit::Hertz.show(self.case.runs_on_from_hz(), 3)
             ),

@@ -1,7 +1,7 @@
 //! What a life comes to, in words: the verdict, what is not known, what it rests on.
 
 use super::{LifeAnswer, LifeKnown};
-use crate::life::{INDENTING_PA, LifePlace};
+use crate::life::{INDENTING_PA, LifePlace, Used};
 use crate::report::{Unit, significant};
 
 impl LifeAnswer<'_> {
@@ -58,16 +58,7 @@ impl LifeAnswer<'_> {
         if !not_carried.is_empty() {
             return format!("NOT HELD: the clutch does not carry {}", not_carried.join(", "));
         }
-        if let Some((share, why)) = self.worn_out() {
-            return format!("NOT HELD: after {} of the life {}", Unit::Percent.show(share, 3), why.names().1);
-        }
-        if let Some((place, sum)) = self.pitted().filter(|_| life.held()) {
-            return format!(
-                "NOT HELD: as the clutch wears, {} uses up {} of its life",
-                place.names().1,
-                Unit::Percent.show(sum, 3)
-            );
-        }
+        // What fails in the first engagement at its torque comes before what takes time.
         if let Some(load) = life.slipping() {
             return format!(
                 "NOT HELD: it slips at {}: that needs a friction of {}, and {} is there in the mean",
@@ -76,10 +67,29 @@ impl LifeAnswer<'_> {
                 significant(life.friction, 4)
             );
         }
-        let mut said = Vec::new();
-        if life.indents() {
-            said.push(format!("{} indents a contact", Unit::NewtonMetre.show(life.largest_nm, 4)));
+        let indents = life.indents().then(|| {
+            format!(
+                "{} indents a contact in its first engagement",
+                Unit::NewtonMetre.show(life.largest_nm, 4)
+            )
+        });
+        let first = indents.iter().map(|words| format!("{words}; ")).collect::<String>();
+        if let Some((share, why)) = self.worn_out() {
+            return format!(
+                "NOT HELD: {first}after {} of the life {}",
+                Unit::Percent.show(share, 3),
+                why.names().1
+            );
         }
+        let else_held = !life.slips_too_often() && !life.used.iter().any(Used::is_up);
+        if let Some((place, sum)) = self.pitted().filter(|_| else_held) {
+            return format!(
+                "NOT HELD: {first}as the clutch wears, {} uses up {} of its life",
+                place.names().1,
+                Unit::Percent.show(sum, 3)
+            );
+        }
+        let mut said = Vec::new();
         if let Some((expected, allowed)) =
             life.slips.zip(life.slips_allowed).filter(|_| life.slips_too_often())
         {
@@ -87,16 +97,18 @@ impl LifeAnswer<'_> {
             said.push(format!("{expected} slips by chance are expected in the life, {allowed} are allowed"));
         }
         if let Some(used) = life.decides() {
-            let decides = format!(
-                "{} decides, {} of its life used up, most of it at {}",
+            let used_up = format!(
+                "{}{}, {} of its life used up, most of it at {}",
                 used.place.names().1,
+                if life.indents() { "" } else { " decides" },
                 Unit::Percent.show(used.sum.unwrap_or(0.0), 3),
                 Unit::NewtonMetre.show(used.mostly_nm, 4)
             );
             // What fails comes first.
-            let at = if used.sum.is_some_and(|sum| sum > 1.0) { 0 } else { said.len() };
-            said.insert(at, decides);
+            let at = if used.is_up() { 0 } else { said.len() };
+            said.insert(at, used_up);
         }
+        said.splice(0..0, indents);
         let unknown = self.not_known();
         let word = match self.known() {
             LifeKnown::NotHeld => "NOT HELD: ",

@@ -9,6 +9,7 @@ mod words;
 pub use body::{OverrunBody, SlipBody};
 pub use tables::OverrunPart;
 pub use warm::WarmClutch;
+pub(in crate::answer) use words::SHOWN_LATER;
 
 use super::left_out::{LeftOut, left_out_of};
 use super::{Finding, Said};
@@ -295,7 +296,7 @@ impl Said for OverrunAnswer<'_> {
     }
 
     fn banner(&self) -> (Tone, String) {
-        (if self.swings().is_some() { Tone::Bad } else { Tone::Plain }, self.verdict())
+        (self.tone(), self.verdict())
     }
 
     fn remarks(&self) -> Vec<String> {

@@ -4,7 +4,10 @@ use super::{LeftOut, OverrunAnswer, OverrunLine, RunningRace};
 use crate::answer::check::overrun::passing_words;
 use crate::dynamics::CageFacts;
 use crate::lubrication::{Film, Walther};
-use crate::report::{Unit, significant};
+use crate::report::{Tone, Unit, significant};
+
+/// Part by which lift-off may come later from which on that is said.
+pub(in crate::answer) const SHOWN_LATER: f64 = 0.005;
 
 /// What overrun on a film leaves out.
 pub(super) fn left_out(answer: &OverrunAnswer<'_>) -> Vec<LeftOut> {
@@ -146,7 +149,7 @@ impl OverrunAnswer<'_> {
     }
 
     /// Where and how fast a swing grows most, at the speeds that are named, of none at all.
-    pub(super) fn swings(&self) -> Option<(&OverrunLine, f64)> {
+    fn swings(&self) -> Option<(&OverrunLine, f64)> {
         self.fastest(true)
     }
 
@@ -155,23 +158,65 @@ impl OverrunAnswer<'_> {
         lines.filter_map(|l| Some((l, growth(l)?))).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
+    /// Lines that the headline is about. A scene that only begins in overrun counts where none stays in it.
+    fn asked_about(&self) -> impl Iterator<Item = &OverrunLine> + Clone {
+        let stays = self.lines.iter().any(|l| self.is_named(l) && self.is_steady(l));
+        self.lines.iter().filter(move |l| self.is_named(l) && (self.is_steady(l) || !stays))
+    }
+
+    /// The line that the headline tells of: of several the one whose swing grows most, then the one with the thinnest film; `None` where no
+    /// speed is named.
+    fn told(&self) -> Option<&OverrunLine> {
+        let lambda = |l: &OverrunLine| l.point.lubricated.map_or(f64::INFINITY, |f| f.film.lambda);
+        let swinging = self.asked_about().filter_map(|l| Some((l, growth(l)?)));
+        let swinging = swinging.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(l, _)| l);
+        swinging.or_else(|| self.asked_about().min_by(|a, b| lambda(a).total_cmp(&lambda(b))))
+    }
+
+    /// By which speed sprags of a driven cage lift off at the latest, rad/s, whatever took them along while the drag was measured; `None`:
+    /// that makes no difference that shows.
+    fn off_at_latest_rad_s(&self) -> Option<f64> {
+        let facts = CageFacts::of(&self.design.clutch, &self.state.curve, self.state.alpha_max_rad)?;
+        Some(facts.lift_off_higher)
+            .filter(|&later| later >= SHOWN_LATER)
+            .and_then(|later| Some(self.lift_off_rad_s? * (1.0 + later)))
+    }
+
+    /// That the line of the headline is beyond lift-off, and may yet not be.
+    fn perhaps_on(&self) -> Option<String> {
+        let (speed, lift) = (self.told()?.speed_rad_s, self.lift_off_rad_s?);
+        self.off_at_latest_rad_s().filter(|&latest| lift <= speed && speed < latest).map(|latest| {
+            format!(
+                "; beyond lift-off at {}, which is as late as {} if the inner race, not the cage, took the sprags along while the drag was \
+                 measured",
+                Unit::Rpm.show(lift, 4),
+                Unit::Rpm.show(latest, 4)
+            )
+        })
+    }
+
+    /// How the headline looks.
+    pub(super) fn tone(&self) -> Tone {
+        match (self.is_unstable(), self.perhaps_on()) {
+            (true, _) => Tone::Bad,
+            (false, Some(_)) => Tone::Soft,
+            (false, None) => Tone::Plain,
+        }
+    }
+
+    /// Whether the headline calls the overrun not stable.
+    fn is_unstable(&self) -> bool {
+        match self.told() {
+            Some(line) => growth(line).is_some(),
+            None => self.swings().is_some(),
+        }
+    }
+
     /// The answer in a line: film, swing, drag and heat where the clutch overruns.
     pub(super) fn headline(&self) -> String {
         let race = self.question.race.name();
-        // A scene that only begins in overrun counts where none stays in it.
-        let stays = self.lines.iter().any(|l| self.is_named(l) && self.is_steady(l));
-        let named = || self.lines.iter().filter(|l| self.is_named(l) && (self.is_steady(l) || !stays));
-        // Of several the one whose swing grows most, then the one with the thinnest film.
-        let lambda = |l: &OverrunLine| l.point.lubricated.map_or(f64::INFINITY, |f| f.film.lambda);
-        let thinnest = || named().min_by(|a, b| lambda(a).total_cmp(&lambda(b)));
-        let swinging = || {
-            named()
-                .filter(|l| growth(l).is_some())
-                .max_by(|a, b| growth(a).partial_cmp(&growth(b)).unwrap_or(std::cmp::Ordering::Equal))
-        };
-        let chosen = swinging().or_else(thinnest);
-        let Some(line) = chosen else { return self.over_all() };
-        let others = match named().count() {
+        let Some(line) = self.told() else { return self.over_all() };
+        let others = match self.asked_about().count() {
             1 => String::new(),
             n => format!(", the worst of {n}"),
         };
@@ -181,7 +226,11 @@ impl OverrunAnswer<'_> {
             significant(line.oil_c, 3)
         );
         let Some(film) = line.point.lubricated else {
-            return format!("{at}: the sprags are off the {} race, no drag and no heat", self.slides_on());
+            let perhaps = self.perhaps_on().unwrap_or_default();
+            return format!(
+                "{at}: the sprags are off the {} race, no drag and no heat{perhaps}",
+                self.slides_on()
+            );
         };
         let swing = match growth(line) {
             Some(rate) => format!(
@@ -191,7 +240,7 @@ impl OverrunAnswer<'_> {
             None => "stable".to_owned(),
         };
         format!(
-            "{at}: λ {} ({}), {swing}; drag {}, heat {}",
+            "{at}: λ {} ({}), {swing}; drag {}, heat {}{}",
             significant(film.film.lambda, 3),
             match film.film.lambda {
                 l if l < 1.0 =>
@@ -200,7 +249,8 @@ impl OverrunAnswer<'_> {
                 _ => "asperities hardly touch".to_owned(),
             },
             Unit::NewtonMetre.show(line.point.state.drag_torque_nm, 3),
-            Unit::Watt.show(film.heat.heat_w, 3)
+            Unit::Watt.show(film.heat.heat_w, 3),
+            self.perhaps_on().unwrap_or_default()
         )
     }
 
@@ -290,9 +340,13 @@ impl OverrunAnswer<'_> {
         }
         all.push(match self.lift_off_rad_s {
             Some(w) if self.slides_outside() => format!(
-                "Without oil the sprags are off the outer race from {} of the inner race; on oil they float off from there, on a film as \
+                "Without oil the sprags are off the outer race from {} of the inner race{}; on oil they float off from there, on a film as \
                  long as the inlet is full: what that drags is in the table",
-                Unit::Rpm.show(w, 4)
+                Unit::Rpm.show(w, 4),
+                self.off_at_latest_rad_s().map_or(String::new(), |latest| format!(
+                    " (from {} at the latest, if the inner race, not the cage, took them along while the drag was measured)",
+                    Unit::Rpm.show(latest, 4)
+                ))
             ),
             Some(w) => format!(
                 "Sprags lift off at {} of the outer race, whatever the oil: drag ends with the force at A",
@@ -342,11 +396,17 @@ impl OverrunAnswer<'_> {
     /// What one should not overlook.
     pub fn warnings(&self) -> Vec<String> {
         let mut all = Vec::new();
-        if let Some((l, rate)) = self.fastest(true) {
+        let told = self.told().or_else(|| self.swings().map(|(l, _)| l));
+        if let Some((l, rate)) = told.and_then(|l| Some((l, growth(l)?))) {
             all.push(format!(
                 "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}",
                 Unit::PerSecond.show(rate, 3),
                 place(l)
+            ));
+        } else if let Some((l, rate)) = self.swings() {
+            all.extend(passing_words(
+                rate,
+                &format!("at a speed at which a scene of the file only begins, {},", place(l)),
             ));
         } else if let Some((l, rate)) = self.fastest(false) {
             all.extend(passing_words(

@@ -7,7 +7,7 @@ use crate::clutch::ScenarioKind;
 use crate::margin::LIFT_OFF_ERROR;
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::scenario::{
-    Figure, Group, Prepared, Quantity, RollingDemand, Simulation, figures_of, overrun_swing,
+    Figure, Group, Prepared, Quantity, RollingDemand, Simulation, Verdict, figures_of, overrun_swing,
 };
 
 /// To what part figures read off the wedge curve are right: what its iterations stop at.
@@ -178,7 +178,7 @@ fn motion(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulation) {
     if let Some(rated) = scene.rated() {
         pressure("Hertz pressure, nominal torque", rated.hertz_inner_pa, rated.normal_inner_n);
     }
-    demand(f, s);
+    demand(f, scene, s);
     if let Some(b) = s.energy {
         let balance = format!(
             "{} J through, {} J lost in friction, {:.1e} left over",
@@ -271,7 +271,7 @@ fn demand_is_steady(s: &Simulation, most: f64, error: f64, at_inner: bool) -> bo
         })
 }
 
-fn demand(f: &mut FactRows, s: &Simulation) {
+fn demand(f: &mut FactRows, scene: &Ran, s: &Simulation) {
     let Some(d) = s.demand else { return };
     for figure in figures_of(Group::Demand) {
         let Some(label) = figure.line.map(|l| l.label) else { continue };
@@ -280,7 +280,10 @@ fn demand(f: &mut FactRows, s: &Simulation) {
         }
         let label = &format!("{label}{}", counted(figure, s));
         if let Some(words) = instead(figure.quantity, &d) {
-            f.word(label, &words);
+            let is_to_let_go = words == NONE_SUFFICES
+                && s.verdict == Some(Verdict::SlipsOverrunning)
+                && scene.scenario.lets_go() == Some(true);
+            f.word(label, if is_to_let_go { "none: it is to let go" } else { &words });
             continue;
         }
         let Some(value) = (figure.of)(s) else { continue };
@@ -363,7 +366,7 @@ fn equilibrium(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulatio
     let shape = scene.shape_error(prepared, row.normal_inner_n);
     let error_pa = s.equilibrium_error.map(|e| (e + shape) * s.hertz_peak_pa);
     f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, error_pa);
-    demand(f, s);
+    demand(f, scene, s);
 }
 
 /// The run beside what pure rolling would need, for a scene that is integrated.

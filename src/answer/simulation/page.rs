@@ -19,7 +19,7 @@ const DRAWN_FRICTION: f64 = 2.0;
 pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
     let title = format!("Simulation of {}", scene.scenario.name);
     let mut page = opened(&title, &scene.design, &provenance.command, |page| {
-        page.verdict(scene.held(), &scene.verdict_line());
+        page.verdict_in(scene.tone(), &scene.verdict_line());
     });
     page.paragraph(&described(scene));
     page.list(&scene.body.notes);

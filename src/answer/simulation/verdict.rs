@@ -5,7 +5,7 @@ use crate::answer::roll_over::followed;
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::dynamics::{Grip, Mode, Place, Stop, Swing};
 use crate::margin::{lift_off_rad_s as lift_off, load_state};
-use crate::report::Unit;
+use crate::report::{Tone, Unit};
 use crate::scenario::{NoScenario, Prepared, Simulation, Verdict, overrun_swing};
 use crate::wedge::{StaticPoint, straddling_error};
 
@@ -45,19 +45,32 @@ impl Ran {
         format!("{name}: {verdict}: {meaning}")
     }
 
-    /// Whether the clutch does what the scenario asks: hold, or slip freely in overrun.
+    /// Whether the clutch does what the scenario asks: hold, or let go where the torque turns round, without slip under load before. Where a
+    /// drivetrain makes it overrun nobody has said whether it is to.
     pub fn held(&self) -> bool {
-        match self.simulation().and_then(|s| s.verdict) {
-            Some(Verdict::Sticks) => true,
-            Some(Verdict::SlipsOverrunning) => self.scenario.lets_go(),
+        match self.simulation().and_then(|s| Some((s, s.verdict?))) {
+            Some((_, Verdict::Sticks)) => true,
+            Some((s, Verdict::SlipsOverrunning)) => {
+                self.scenario.lets_go() == Some(true) && !s.slips_under_load()
+            }
             // Off the race in overrun: so it may be, but where contact is to be kept at that speed.
-            Some(Verdict::Disengages) => match self.scenario.kind {
+            Some((_, Verdict::Disengages)) => match self.scenario.kind {
                 ScenarioKind::Overrun { speed_rad_s, .. } => {
                     self.design.limits.keep_contact_to_rad_s.is_none_or(|keep| speed_rad_s > keep)
                 }
                 _ => false,
             },
             _ => false,
+        }
+    }
+
+    /// How the verdict looks on a page.
+    pub(super) fn tone(&self) -> Tone {
+        let overran = self.simulation().filter(|s| s.verdict == Some(Verdict::SlipsOverrunning));
+        match overran.filter(|s| self.scenario.lets_go().is_none() && !s.slips_under_load()) {
+            Some(_) => Tone::Plain,
+            None if self.held() => Tone::Good,
+            None => Tone::Bad,
         }
     }
 
@@ -127,6 +140,21 @@ fn meaning(s: &Simulation, scenario: &Scenario, swing: Option<Swing>) -> String 
                 "it overruns to its end at {}: the clutch does not engage within duration_s",
                 Unit::Second.show(s.t_s, 4)
             )
+        }
+        // What friction it would take not to let go is no question where it is to.
+        Some(Verdict::SlipsOverrunning) if scenario.lets_go() != Some(false) => {
+            let why = match scenario.lets_go() {
+                Some(_) => ", as its torque has it",
+                None => "",
+            };
+            let under_load = match s.slips_under_load() {
+                true => format!(
+                    "under load it slips by {} towards engaging",
+                    Unit::Micrometre.show(s.slipped_engaging_m(), 4)
+                ),
+                false => "under load it does not slip".to_owned(),
+            };
+            format!("it overruns{why}: {}; {under_load}", shifted(s))
         }
         Some(Verdict::SlipsOverrunning | Verdict::SlipsEngaging) => format!("{}; {margin}", shifted(s)),
         Some(Verdict::Disengages) => {
