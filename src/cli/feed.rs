@@ -14,6 +14,7 @@ Examples:
   sprag-design feed designs/indexing.toml --stroke 12 --brake 50 --spring 0.5,2,4
 
 One race swings to and fro, the other is fed against a brake. How much does a stroke feed, and up to how many strokes a second?
+Between the frequencies it looks too, up to the first loss; the verdict tells of one, the exit code is that of those asked for.
 Exit code 1 where strokes of a frequency asked for feed more or less than slow ones by more than is allowed, wind the clutch up
 beyond its limits at peak torque, or throw its sprags.";
 

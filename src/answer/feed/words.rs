@@ -198,8 +198,8 @@ impl FeedAnswer<'_> {
             ),
             format!(
                 "Slow strokes feed the stroke less the windup at that torque, {}; where the inertia asks for more than \
-                 the brake, the fed race runs on: an estimate, as if it went with the driving race, is from {} on; what it does is in the \
-                 table",
+                 the brake, the fed race runs on, from some {} on: an estimate, for one that goes as the driving race does; the table has what it \
+                 does",
                 Unit::Degree.show(self.windup_rad, 4),
                 Unit::Hertz.show(self.case.runs_on_from_hz(), 3)
             ),

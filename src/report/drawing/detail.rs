@@ -9,7 +9,7 @@ use crate::report::svg::{
 /// In a window, and on a phone.
 const SIZES: [[f64; 2]; 2] = [[720.0, 560.0], [PHONE_PX, 430.0]];
 /// Columns at both sides for labels.
-const COLUMNS: [[f64; 2]; 2] = [[178.0, 178.0], [132.0, 108.0]];
+const COLUMNS: [[f64; 2]; 2] = [[178.0, 178.0], [160.0, 100.0]];
 const PITCH: f64 = 19.0;
 
 /// The map from the drawn frame (m, y up) to the figure (px, y down).

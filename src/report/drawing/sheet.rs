@@ -13,7 +13,7 @@ const HEIGHT: f64 = 440.0;
 const SPLIT: f64 = 292.0;
 /// Room for the sprag between its labels, px, and the part of the rest that those on the left have.
 const MIDDLE: f64 = 108.0;
-const LEFT: f64 = 0.53;
+const LEFT: f64 = 0.59;
 /// Largest diameter of the front view.
 const WIDEST: f64 = 222.0;
 /// Pixels of a page per metre of paper: 96 an inch.
