@@ -50,6 +50,8 @@ fn a_stronger_spring_feeds_as_it_should_at_faster_strokes() {
         frequencies_hz: vec![10.0, 20.0, 40.0, 80.0, 160.0],
         brake_nm: Some(50.0),
         inertia_kg_m2: Some(5e-4),
+        // The sprags come too late by more than a fed race that little is moved with runs on.
+        allowed_rad: 0.5_f64.to_radians(),
         springs: vec![0.25, 1.0, 4.0],
         ..FeedSettings::default()
     };
@@ -59,7 +61,7 @@ fn a_stronger_spring_feeds_as_it_should_at_faster_strokes() {
     assert_eq!((own.lost.as_ref(), found.climb.lost_between), (found.climb.lost.as_ref(), true));
     let limits = [weak, own, strong].map(|spring| spring.limit_hz.unwrap_or(0.0));
     let grows = [limits[1] / limits[0], limits[2] / limits[1]];
-    assert!(grows.iter().all(|times| (1.4..2.6).contains(times)), "{limits:?}");
+    assert!(grows.iter().all(|times| (1.6..2.2).contains(times)), "{limits:?}");
     assert_eq!(strong.drag_torque_nm, 4.0 * design.clutch.spring.drag_torque_nm);
     let refused = design.feed(&FeedSettings { springs: vec![-1.0], ..asked });
     assert!(matches!(refused, Err(NoFeed::Refused { .. })), "{refused:?}");

@@ -3,6 +3,7 @@
 use crate::answer::overrun::{SHOWN_LATER, usual_speeds_rad_s};
 use crate::design::{Design, Limits};
 use crate::dynamics::CageFacts;
+use crate::file::inputs;
 use crate::follow::Follow;
 use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
@@ -217,9 +218,9 @@ pub struct CageSection {
     pub lift_off_later_per_um: f64,
     /// Whether the sprags come back to the outer race at the speed of lift-off; else at a lower one.
     pub comes_back_there: bool,
-    /// Whether the centroid follows from flanks.
+    /// Whether the file names the centroid; else it follows from flanks.
     #[serde(skip)]
-    of_flanks: bool,
+    centroid_named: bool,
 }
 
 impl CageSection {
@@ -233,7 +234,7 @@ impl CageSection {
             clearance_um: Unit::Micrometre.from_si(design.clutch.cage?.clearance_m),
             lift_off_later_per_um: 1e-6 * facts.lift_off_higher_per_m,
             comes_back_there: facts.opens_softly,
-            of_flanks: design.clutch.sprags.flanks.is_some(),
+            centroid_named: inputs(&design.source).iter().any(|i| i.path.starts_with("sprags.centroid")),
         })
     }
 
@@ -243,9 +244,9 @@ impl CageSection {
             format!(
                 ", for speed presses them on: they lift off where the centroid lies ahead of the pivot, by {}, or by a smaller \
                  cage.pivot.x_mm",
-                match self.of_flanks {
-                    true => "flanks of the sprags with more front_mm or less rear_mm",
-                    false => "a larger sprags.centroid.x_mm",
+                match self.centroid_named {
+                    true => "a larger sprags.centroid.x_mm",
+                    false => "flanks of the sprags with more front_mm or less rear_mm",
                 }
             )
         })

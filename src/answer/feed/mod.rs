@@ -77,7 +77,7 @@ pub struct FeedAnswer<'a> {
     /// Springs that were asked for.
     pub springs_asked: usize,
     /// The way up through the frequencies that were asked for and between them.
-    pub climb: Climb,
+    pub climb: FeedClimb,
     /// The same for each other spring that was asked for.
     pub springs: Vec<SpringFeed>,
     /// Peak torque that every limit bears, N m, and the limit that sets it.
@@ -87,7 +87,7 @@ pub struct FeedAnswer<'a> {
 /// The way up through frequencies and between them, in steps of at most [`STEP`], to the first one at which strokes do not feed as they
 /// should.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Climb {
+pub struct FeedClimb {
     /// How many frequencies between those that were asked for were looked at.
     pub looks: usize,
     /// The frequency, Hz, at which it first ceases to feed as it should; it may do so again beyond. `None`: nowhere, or already at the
@@ -106,7 +106,7 @@ pub struct SpringFeed {
     pub factor: f64,
     /// Drag torque of the whole clutch with it, N m.
     pub drag_torque_nm: f64,
-    /// As [`Climb::limit_hz`].
+    /// As [`FeedClimb::limit_hz`].
     pub limit_hz: Option<f64>,
     /// The first frequency on the way up whose strokes do not feed as they should; `None`: all are held.
     pub lost: Option<Fed>,
@@ -227,7 +227,7 @@ impl Design {
             asked: list.len(),
             stopped_between: false,
             springs_asked: settings.springs.len(),
-            climb: Climb::default(),
+            climb: FeedClimb::default(),
             springs: Vec::new(),
             bears,
         };
@@ -257,8 +257,8 @@ impl FeedAnswer<'_> {
     }
 
     /// The way up through `list` and between; `None`: stopped.
-    fn climb(&self, clutch: &Clutch, list: &[Fed], follow: &Follow) -> Result<Option<Climb>, NoFeed> {
-        let mut climb = Climb::default();
+    fn climb(&self, clutch: &Clutch, list: &[Fed], follow: &Follow) -> Result<Option<FeedClimb>, NoFeed> {
+        let mut climb = FeedClimb::default();
         if list.first().is_none_or(|first| !self.feeds(first)) {
             return Ok(Some(climb));
         }
