@@ -46,7 +46,7 @@ const MAY_USE: &[(&str, &str)] = &[
     // The same element, swung by a drive.
     ("feed", "follow clutch wedge dynamics element"),
     // Loads of a life on the static curve; strengths are the file's.
-    ("life", "numeric lubrication clutch design friction wedge margin"),
+    ("life", "numeric profile lubrication clutch design friction wedge margin"),
     // Never a contact, a wedge or a path. Scenes run as fidelity plans them; a centroid is made real on the profile itself.
     ("optimise", "follow numeric profile clutch design file scenario fidelity margin"),
     ("journal", "optimise"),

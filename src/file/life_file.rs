@@ -25,7 +25,8 @@ pub(super) struct LifeFile {
     /// carries, and a swing of the rings down to the least.
     #[serde(default)]
     pub swings: Vec<SwingFile>,
-    /// Scenarios of kind overrun that go on for hours: sprags and inner race wear in them, with the coefficients of `lubrication`.
+    /// Scenarios of kind overrun that go on for hours: sprags and the race that they slide on wear in them, with the coefficients of
+    /// `lubrication`. With a [cage] its `clearance_um` is to be above 0.
     #[serde(default)]
     pub overruns: Vec<SwingFile>,
     /// Torques over time, counted: peaks above half of the largest are an engagement each, rings by rainflow.
@@ -155,11 +156,12 @@ pub(super) fn service(
             return None;
         }
     }
-    if whole.cage.is_some() && !file.overruns.is_empty() {
+    if whole.cage.as_ref().is_some_and(|cage| cage.clearance_um == 0.0) && !file.overruns.is_empty() {
         out.refuse(
-            &["life.overruns", "cage"],
-            "none with [cage]: wear over a life is that of sprags that ride with the outer race".to_owned(),
-            "remove life.overruns; `overrun` has the wear of an hour".to_owned(),
+            &["cage.clearance_um", "cage", "life.overruns"],
+            "above 0 with life.overruns: as sprags wear, their pivots go outward to stay on the outer race".to_owned(),
+            "give what the pocket lets the pivot go outward, or remove life.overruns; `overrun` has the wear of an hour"
+                .to_owned(),
         );
         return None;
     }

@@ -17,7 +17,7 @@ pub mod slip;
 mod wear;
 mod worn;
 
-pub use outline_worn::{BLUNT, BLUNT_BY_RADIUS, Worn, worn};
+pub use outline_worn::{BLUNT, BLUNT_BY_RADIUS, Worn, WornOutside, worn};
 pub use wear::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
 pub use worn::{Broken, Wear, WornLife, WornState, worn_life, worn_life_with, worn_state};
 

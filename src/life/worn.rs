@@ -1,7 +1,7 @@
 //! The profile as it wears, fed back: torque, engagement angle, gap and lift-off over the hours and engagements of a life.
 //!
 //! In: a `Design` with oil, a life with overruns, its loads. Out: [`WornLife`]. Absent: a film that changes as the contact conforms (the
-//! asperities' share is that of the drawn contact), wear of the contact at B in overrun, where sprags ride with the outer race.
+//! asperities' share is that of the drawn contact), wear of the contact that does not slide, of cage and springs.
 //! Equations: Archard's V = k int N ds, of the load that asperities carry; Carter's creep.
 //!
 //! # Overrun
@@ -13,22 +13,34 @@
 //! where the drawn one would touch, until the contact has come to the tangent there: the angle of engagement is larger.
 //! The edge is blunt by [`BLUNT`] of its arc, or [`super::BLUNT_BY_RADIUS`]. The track is worn alike all round.
 //!
+//! # Overrun in a cage
+//! A cage carries the sprags with the inner race, and they wear to the outer one: 1/R = 1/r_e - 1/R_e, V and b as above. On the flat C_e is d
+//! farther out, the sprag is one of the outer arc r_e - d about the same C_e: it turns on along the inner race, its spring relaxes,
+//! and its pivot P goes outward, which the cage allows by its clearance and no more. Engaging, B goes back along the outer arc: the sprag
+//! pivots over the edge of the flat, b behind, as one of an outer arc of that edge, until the contact has turned there by b/R
+//! and is on the drawn arc: from that force on it carries what the drawn one carries. A force decides what sprag carries
+//! it, not the way there (the paper's Figure 5), so either is a curve of its own.
+//! A sprag that the cage or a film holds open slides farther ahead on its arc than where it touches when it engages. The flat counts
+//! as if it were here, which is a bound: beside it less is missing, and its edge less far back.
+//!
 //! # Engagements
 //! A contact that rolls ds under N creeps by xi ds, xi = 2 T/(pi E* l a) (Carter, small creep): each pass takes
 //! k N xi/l off the sprag and, of a place of the track, as often as a sprag passes. Twice an engagement: up and back.
 //! Over the path that is taken for a line in the turn, h_0 + h_1 t, by least squares: a parallel curve that is turned by
 //! h_1, so arcs stay arcs.
 
-use super::outline_worn::{BLUNT, blunt_of, worn_with};
+use super::outline_worn::{BLUNT, Worn, blunt_of, worn_with};
 use super::{Life, LifePlace, LoadEffect, contact_part, passes, walks_m};
-use crate::clutch::Service;
+use crate::clutch::{Clutch, Service};
 use crate::design::Design;
 use crate::lubrication::track_depth_m;
 use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, When, lift_off_rad_s, load_margins,
     load_state, overrun_at,
 };
+use crate::numeric::root;
 use crate::wedge::{AtSpeeds, NoCurve, StaticPoint, WedgeCurve};
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Parts of the life at which the clutch is looked at, until a limit is broken.
@@ -70,8 +82,13 @@ impl Wear {
 pub enum Broken {
     /// The sprags no longer span the gap, or have no profile left.
     Gap,
+    /// To touch the outer race they would have to go farther out than their cage lets them.
+    Cage,
     /// First contact or the largest load asks for more static friction than there is.
     Friction,
+    /// A sprag rolls over on the edge of its flat below the largest torque, before the contact has left the edge: what it does then is not
+    /// followed.
+    Edge,
     /// A limit of the file is reached below the largest torque of the life that it is held at.
     Torque,
     /// Sprags lift off below the speed to which contact is to be kept.
@@ -85,9 +102,14 @@ impl Broken {
     pub fn names(self) -> (&'static str, &'static str) {
         match self {
             Self::Gap => ("gap", "the sprags no longer span the gap"),
+            Self::Cage => (
+                "cage",
+                "the cage keeps the sprags off the outer race: they would have to go farther out than cage.clearance_um",
+            ),
             Self::Friction => {
                 ("friction", "the sprags ask for more static friction than there is: they slip")
             }
+            Self::Edge => ("edge", "the sprags roll over on the edge of their flat below the largest torque"),
             Self::Torque => {
                 ("torque", "a limit is reached below the largest torque of the life that it is held at")
             }
@@ -120,9 +142,11 @@ pub struct WornState {
     pub required_friction: Option<f64>,
     /// Torque at which the required limit is reached that its loads come nearest to, N m, and its code; `None`: no limit has one.
     pub capacity: Option<(f64, String)>,
-    /// Lift-off of the outer race, rad/s; `None`: contact is kept up to 60 000 turns a minute.
+    /// Lift-off, rad/s of the race that carries the sprags round; `None`: contact is kept up to 60 000 turns a minute.
     pub lift_off_rad_s: Option<f64>,
-    /// Normal force of one sprag in the first overrun of the life, N.
+    /// What is left of the clearance outside the pivot in the cage, m; `None` without one.
+    pub clearance_m: Option<f64>,
+    /// Force of one sprag where it slides in the first overrun of the life, N.
     pub normal_n: f64,
     /// Miner's sum of a whole life in this state, for each of [`LifePlace::contacts`]; `None` where no strength is given or a load is
     /// not carried.
@@ -141,6 +165,9 @@ pub struct WornLife {
     /// The part of the life after which it would be broken with an edge as sharp as [`BLUNT`], where it has
     /// [`super::BLUNT_BY_RADIUS`]: straight on through the lives with that and with one twice as blunt.
     pub sharp_share: Option<f64>,
+    /// How far ahead of where a sprag touches when it engages it slides in the overrun in which that is farthest, as drawn, m; 0 without
+    /// a cage.
+    pub ahead_m: f64,
 }
 
 impl WornLife {
@@ -173,6 +200,14 @@ struct March<'a> {
     blunt: f64,
     /// Of engagements, a whole life: it does not depend on the wear to first order.
     creep: Wear,
+}
+
+/// The sprags on the edge of a flat.
+struct OnEdge {
+    design: Design,
+    state: LoadState,
+    /// Torque at which the contact leaves it, N m; infinite where it does not.
+    until_nm: f64,
 }
 
 /// Wear over the life of `design`; `None` where nothing is known to wear: without oil, or without an overrun in the life.
@@ -233,7 +268,7 @@ pub fn worn_life_with(
         states.push(last);
         break;
     }
-    Ok(Some(WornLife { hours, states, sharp_share: None }))
+    Ok(Some(WornLife { hours, states, sharp_share: None, ahead_m: march.ahead_m() }))
 }
 
 /// One state of `design` with `wear`, for who has that already; `share`: the part of the life it stands for.
@@ -267,29 +302,63 @@ impl March<'_> {
         now
     }
 
-    /// The state of the drawn sprags with the spring relaxed by `turned_rad`.
-    fn relaxed(&self, turned_rad: f64) -> LoadState {
-        LoadState { alpha_max_rad: self.state.alpha_max_rad - turned_rad, ..self.state.clone() }
+    /// Design and state in which sprags `found` so worn overrun: the drawn ones with the spring relaxed, in a cage those on their flat.
+    fn idle(&self, found: Option<&Worn>) -> Option<(Cow<'_, Design>, LoadState)> {
+        let turned_rad = found.map_or(0.0, |worn| worn.turned_rad);
+        let alpha_max_rad = self.state.alpha_max_rad - turned_rad;
+        let Some(cage) = self.design.clutch.cage else {
+            return Some((Cow::Borrowed(self.design), LoadState { alpha_max_rad, ..self.state.clone() }));
+        };
+        let outside = found?.outside.as_ref()?;
+        if outside.seated.cage == Some(cage) && turned_rad == 0.0 {
+            return Some((Cow::Borrowed(self.design), self.state.clone()));
+        }
+        let profile = outside.seated.profile().ok()?;
+        // As far as overrun feels it.
+        let curve = WedgeCurve::build_reaching(&outside.seated, &profile, 0.0, Some(0.0)).ok()?;
+        let design = Design { clutch: outside.seated.clone(), ..self.design.clone() };
+        Some((Cow::Owned(design), LoadState { profile, curve, alpha_max_rad, ..self.state.clone() }))
+    }
+
+    /// Speeds of the overruns, as of [`overrun_at`], and their durations, s.
+    fn overruns(&self) -> impl Iterator<Item = ([f64; 2], f64)> {
+        self.service.overruns.iter().filter_map(|overrun| {
+            let scenario = self.design.scenario(&overrun.scenario)?;
+            Some((scenario.kind.overrun_rad_s()?, overrun.duration_s))
+        })
+    }
+
+    /// [`WornLife::ahead_m`].
+    fn ahead_m(&self) -> f64 {
+        if !self.design.clutch.slides_outside() {
+            return 0.0;
+        }
+        let open_rad = self.overruns().filter_map(|([ahead, outer], _)| {
+            let point = overrun_at(self.design, &self.state, outer, ahead).ok()?;
+            (point.state.sliding_n > 0.0).then_some(-point.state.alpha_rad)
+        });
+        self.design.clutch.sprags.outer_radius_m * open_rad.fold(0.0, f64::max)
     }
 
     /// Wear in a whole life at the present rate.
     fn rate(&self, wear: &Wear) -> Wear {
         let Some(oil) = self.design.clutch.lubrication.as_ref() else { return Wear::default() };
         let found = worn_with(self.design, &self.state, wear, self.blunt);
-        let turned_rad = found.map_or(f64::INFINITY, |w| w.turned_rad);
-        let relaxed = self.relaxed(turned_rad.min(PI));
-        let clutch = &self.design.clutch;
         let mut rate = self.creep;
-        for overrun in &self.service.overruns {
-            let scenario = self.design.scenario(&overrun.scenario);
-            let Some([ahead, outer]) = scenario.and_then(|s| s.kind.overrun_rad_s()) else { continue };
-            let Ok(point) = overrun_at(self.design, &relaxed, outer, ahead) else { continue };
+        let idle = found.as_ref().and_then(|worn| self.idle(Some(worn)));
+        let Some((design, state)) = idle else { return rate };
+        let clutch = &self.design.clutch;
+        let track_m = clutch.sliding_track_m();
+        for ([ahead, outer], duration_s) in self.overruns() {
+            let Ok(point) = overrun_at(&design, &state, outer, ahead) else { continue };
             let Some(on_film) = point.lubricated.as_ref() else { continue };
-            let path_m = ahead.abs() * clutch.races.inner_radius_m * overrun.duration_s;
-            let rubbed = on_film.film.asperities * point.state.normal_inner_n * path_m;
+            let path_m = ahead.abs() * track_m * duration_s;
+            let rubbed = on_film.film.asperities * point.state.sliding_n * path_m;
             rate.sprag_m3 += oil.sprag_wear_m2_per_n * rubbed;
             let all = clutch.sprags.count as f64 * oil.race_wear_m2_per_n * rubbed;
-            rate.inner_track_m += track_depth_m(all, clutch.races.inner_radius_m, clutch.contact_length_m());
+            let track =
+                if clutch.slides_outside() { &mut rate.outer_track_m } else { &mut rate.inner_track_m };
+            *track += track_depth_m(all, track_m, clutch.contact_length_m());
         }
         rate
     }
@@ -303,20 +372,48 @@ impl March<'_> {
         counted.reduce(f64::max).filter(|nm| *nm > 0.0)
     }
 
-    /// Torque at which the contact leaves the edge of a flat, N m.
-    fn leaves_edge_nm(&self, worn: &LoadState) -> f64 {
-        worn.curve.at_normal(worn.curve.arc_end_n(0)).map_or(0.0, |p| p.torque_nm)
+    /// The sprags of `worn` on the edge of their flat, otherwise in the state `of_worn`; `None` without a flat.
+    fn on_edge(&self, worn: Worn, of_worn: &LoadState) -> Result<Option<OnEdge>, NoCurve> {
+        let clutch = match worn.outside {
+            None => (worn.flat_m[1] > 0.0).then_some((worn.clutch, None)),
+            Some(outside) => outside.edge.map(|(clutch, turn_rad)| (clutch, Some(turn_rad))),
+        };
+        let Some((clutch, turn_rad)) = clutch else { return Ok(None) };
+        let state = match turn_rad {
+            None => of_worn.clone(),
+            Some(_) => load_of_worn(&clutch, of_worn, &self.state.curve)?,
+        };
+        let curve = &state.curve;
+        let torque_nm = |n: f64| curve.at_normal(n).map(|p| p.torque_nm);
+        let until_nm = match turn_rad {
+            None => torque_nm(curve.arc_end_n(0)).unwrap_or(0.0),
+            Some(turn_rad) => {
+                let left =
+                    |n: f64| curve.closure_at_normal(n).map_or(f64::NAN, |(_, c)| c.rotation.v - turn_rad);
+                let end = curve.arc_end_n(curve.arc_count() - 1);
+                let leaves_n = root::bracketed(0.0, end, -turn_rad, left(end), 1e-12 * end, left);
+                leaves_n.and_then(torque_nm).unwrap_or(f64::INFINITY)
+            }
+        };
+        Ok(Some(OnEdge { design: Design { clutch, ..self.design.clone() }, state, until_nm }))
     }
 
-    /// Miner's sums of a whole life in the state `worn` of the worn `design`. On the edge of a flat, up to `on_edge_nm`, the inner contact
-    /// counts as pressed as in the drawn clutch under the same force.
-    fn pitting(&self, design: &Design, worn: &LoadState, on_edge_nm: f64) -> [Option<f64>; 4] {
+    /// Miner's sums of a whole life in the state `worn` of the worn `design`. On the `edge` of a flat the contact there counts as pressed as
+    /// in the drawn clutch under the same force. Outside, the walk begins where a sprag would touch without its flat: up to b too long.
+    fn pitting(&self, design: &Design, worn: &LoadState, edge: Option<&OnEdge>) -> [Option<f64>; 4] {
         let mut sums = [Some(0.0); 4];
         for load in &self.life.loads {
+            let edge = edge.filter(|edge| load.torque_nm <= edge.until_nm);
+            let (design, worn) = edge.map_or((design, worn), |edge| (&edge.design, &edge.state));
             let p = worn.curve.at_torque(load.torque_nm).and_then(|p| {
-                let on_edge = load.torque_nm <= on_edge_nm;
-                let drawn = if on_edge { self.state.curve.at_normal(p.normal_inner_n)? } else { p };
-                Some(StaticPoint { hertz_inner_pa: drawn.hertz_inner_pa, ..p })
+                if edge.is_none() {
+                    return Some(p);
+                }
+                let drawn = self.state.curve.at_normal(p.normal_inner_n)?;
+                Some(match design.clutch.slides_outside() {
+                    false => StaticPoint { hertz_inner_pa: drawn.hertz_inner_pa, ..p },
+                    true => StaticPoint { hertz_outer_pa: drawn.hertz_outer_pa, ..p },
+                })
             });
             let passes = p.map_or([0.0; 2], |p| passes(design, self.service, &p, walks_m(design, worn, &p)));
             for (sum, place) in sums.iter_mut().zip(LifePlace::contacts()) {
@@ -329,15 +426,13 @@ impl March<'_> {
 
     fn state(&self, share: f64, wear: &Wear) -> WornState {
         let found = worn_with(self.design, &self.state, wear, self.blunt);
-        let turned_rad = found.as_ref().map_or(0.0, |w| w.turned_rad);
         let [flat_m, half_flat_m] = found.as_ref().map_or([0.0; 2], |w| w.flat_m);
-        let relaxed = self.relaxed(turned_rad);
-        let first = self
-            .service
-            .overruns
-            .first()
-            .and_then(|o| self.design.scenario(&o.scenario)?.kind.overrun_rad_s());
-        let point = first.and_then(|[ahead, outer]| overrun_at(self.design, &relaxed, outer, ahead).ok());
+        let clearance_m = found.as_ref().and_then(|w| Some(w.outside.as_ref()?.clearance_m));
+        let idle = self.idle(found.as_ref());
+        let point =
+            self.overruns().next().zip(idle.as_ref()).and_then(|(([ahead, outer], _), (design, state))| {
+                overrun_at(design, state, outer, ahead).ok()
+            });
         let opened_m =
             wear.inner_track_m + wear.outer_track_m + flat_m + wear.inner_arcs_m[0] + wear.outer_arc_m;
         let mut state = WornState {
@@ -349,30 +444,44 @@ impl March<'_> {
             first_tan_omega: None,
             required_friction: None,
             capacity: None,
-            lift_off_rad_s: lift_off_rad_s(self.design, &relaxed, LIFT_OFF_TO_RAD_S),
-            normal_n: point.map_or(0.0, |p| p.state.normal_inner_n),
+            lift_off_rad_s: idle
+                .as_ref()
+                .and_then(|(design, state)| lift_off_rad_s(design, state, LIFT_OFF_TO_RAD_S)),
+            clearance_m,
+            normal_n: point.map_or(0.0, |p| p.state.sliding_n),
             pitting: [None; 4],
             broken: Some(Broken::Gap),
         };
-        let Some(worn) = found else { return state };
-        let design = Design { clutch: worn.clutch, ..self.design.clone() };
-        let of_worn = match load_of_worn(&design, &relaxed, *wear == Wear::default()) {
-            Ok(of_worn) => of_worn,
+        let Some((worn, (_, idle))) = found.zip(idle) else { return state };
+        if clearance_m.is_some_and(|left_m| left_m < 0.0) {
+            return WornState { broken: Some(Broken::Cage), ..state };
+        }
+        let design = Design { clutch: worn.clutch.clone(), ..self.design.clone() };
+        let relaxed = LoadState { alpha_max_rad: idle.alpha_max_rad, ..self.state.clone() };
+        let of_worn = match *wear == Wear::default() {
+            true => Ok(relaxed),
+            false => load_of_worn(&design.clutch, &relaxed, &self.state.curve),
+        };
+        let both = of_worn.and_then(|of_worn| Ok((self.on_edge(worn, &of_worn)?, of_worn)));
+        let (edge, of_worn) = match both {
+            Ok(both) => both,
             Err(NoCurve::NoConvergence) => return WornState { broken: Some(Broken::Unknown), ..state },
             Err(_) => return state,
+        };
+        let edge = edge.as_ref();
+        let at_torque = |nm: f64| {
+            let on = edge.filter(|edge| nm <= edge.until_nm).map_or(&of_worn, |edge| &edge.state);
+            on.curve.at_torque(nm)
         };
         let rows = load_margins(&design, &design.limits, Capacities::Wanted, &of_worn);
         // On the edge of a flat the pressure is that of a radius which nobody knows: there a limit is reached at the
         // force of the drawn clutch.
-        let on_edge_nm = if half_flat_m > 0.0 { self.leaves_edge_nm(&of_worn) } else { 0.0 };
         let capacity = |row: &Margin| {
             let nm = row.torque_capacity_nm?;
-            if nm > on_edge_nm {
-                return Some(nm);
-            }
+            let Some(edge) = edge.filter(|edge| nm <= edge.until_nm) else { return Some(nm) };
             let drawn = self.rows.iter().find(|drawn| drawn.code() == row.code())?.torque_capacity_nm?;
             let normal_n = self.state.curve.at_torque(drawn)?.normal_inner_n;
-            Some(of_worn.curve.at_normal(normal_n)?.torque_nm)
+            Some(edge.state.curve.at_normal(normal_n)?.torque_nm)
         };
         // The part of its asked torque at which each limit is reached.
         let reached = rows.iter().filter(|r| r.required).filter_map(|row| {
@@ -382,13 +491,18 @@ impl March<'_> {
         let lowest = reached.min_by(|a, b| a.0.total_cmp(&b.0));
         let carries = lowest.as_ref().is_none_or(|(part, _)| *part >= 1.0);
         state.capacity = lowest.map(|(_, capacity)| capacity);
-        state.first_tan_omega = Some(of_worn.first_tan_omega);
-        state.pitting = self.pitting(&design, &of_worn, on_edge_nm);
-        let largest_nm = self.life.largest_nm;
-        state.required_friction = of_worn.curve.at_torque(largest_nm).map(|p| p.required_friction());
-        let asked = state.required_friction.unwrap_or(f64::INFINITY).max(of_worn.first_tan_omega);
+        let first_tan_omega = edge.map_or(of_worn.first_tan_omega, |edge| edge.state.first_tan_omega);
+        state.first_tan_omega = Some(first_tan_omega);
+        state.pitting = self.pitting(&design, &of_worn, edge);
+        state.required_friction = at_torque(self.life.largest_nm).map(|p| p.required_friction());
+        let asked = state.required_friction.unwrap_or(f64::INFINITY).max(first_tan_omega);
         let keep = self.design.limits.keep_contact_to_rad_s;
-        state.broken = if asked > self.design.clutch.friction.static_ {
+        let rolls = edge.is_some_and(|edge| {
+            edge.until_nm.is_infinite() && edge.state.curve.end_torque_nm() < self.life.largest_nm
+        });
+        state.broken = if rolls && first_tan_omega <= self.design.clutch.friction.static_ {
+            Some(Broken::Edge)
+        } else if asked > self.design.clutch.friction.static_ {
             Some(Broken::Friction)
         } else if !carries {
             Some(Broken::Torque)
@@ -401,13 +515,10 @@ impl March<'_> {
     }
 }
 
-/// The load state of a worn `design`: what its body gives is that of the drawn one. `drawn`: nothing has worn.
-fn load_of_worn(design: &Design, drawn_state: &LoadState, drawn: bool) -> Result<LoadState, NoCurve> {
-    if drawn {
-        return Ok(drawn_state.clone());
-    }
-    let profile = design.clutch.profile().map_err(|_| NoCurve::NoFirstContact)?;
-    let curve = WedgeCurve::build_with_body_of(&design.clutch, &profile, &drawn_state.curve)?;
+/// The load state of a worn `clutch` whose spring is that of `idle`; its bodies give as those of the `drawn` curve.
+fn load_of_worn(clutch: &Clutch, idle: &LoadState, drawn: &WedgeCurve) -> Result<LoadState, NoCurve> {
+    let profile = clutch.profile().map_err(|_| NoCurve::NoFirstContact)?;
+    let curve = WedgeCurve::build_with_body_of(clutch, &profile, drawn)?;
     let first_tan_omega = curve.touch().t_ratio;
     Ok(LoadState {
         profile,
@@ -415,7 +526,7 @@ fn load_of_worn(design: &Design, drawn_state: &LoadState, drawn: bool) -> Result
         curve,
         at_speeds: AtSpeeds::default(),
         first_tan_omega,
-        alpha_max_rad: drawn_state.alpha_max_rad,
+        alpha_max_rad: idle.alpha_max_rad,
         looks: None,
     })
 }

@@ -279,8 +279,8 @@ fn what_would_have_other_sprags_is_refused() {
         (
             scene("kind = \"static\"\ntorque_nm = 1.0")
                 + "\n[life]\nloads = [ { torque_nm = 600.0, engagements = 1.0 } ]\noverruns = [ { scenario = \"free\", hours = 1.0 } ]\n",
-            "life.overruns",
-            "ride with the outer race",
+            "cage.clearance_um",
+            "above 0 with life.overruns",
         ),
         (text(&[("\"inner-race\"", "\"outer-race\"")]), "cage.driven_by", "inner-race"),
         (text(&[("pivot = { x_mm = 0.15", "pivot = { x_mm = 0.40")]), "cage.pivot.x_mm", "between the lines"),

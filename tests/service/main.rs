@@ -10,3 +10,4 @@ mod life;
 mod lubrication;
 mod reengage;
 mod worn;
+mod worn_outside;

@@ -125,8 +125,22 @@ impl LifeAnswer<'_> {
         let rows = Rows::of(&worn.states)
             .number("hours", "Overrun, h", Unit::One, 4, |s| hours * s.share)
             .number("engagements", "Engagements", Unit::One, 4, |s| engagements * s.share)
-            .number("flat_um", "Flat", Unit::Micrometre, 3, |s| s.flat_m)
-            .number("inner_track_um", "Track", Unit::Micrometre, 3, |s| s.wear.inner_track_m)
+            .number("flat_um", "Flat", Unit::Micrometre, 3, |s| s.flat_m);
+        // The track that they slide on is shown.
+        let inner = |s: &&WornState| s.wear.inner_track_m;
+        let outer = |s: &&WornState| s.wear.outer_track_m;
+        let rows = match self.design.clutch.slides_outside() {
+            false => rows
+                .number("inner_track_um", "Track", Unit::Micrometre, 3, inner)
+                .json_in("outer_track_um", Unit::Micrometre, outer)
+                .json("normal_inner_n", |s| s.normal_n),
+            true => rows
+                .number("outer_track_um", "Track", Unit::Micrometre, 3, outer)
+                .number("clearance_um", "Clearance left", Unit::Micrometre, 3, |s| s.clearance_m)
+                .json_in("inner_track_um", Unit::Micrometre, inner)
+                .json("normal_outer_n", |s| s.normal_n),
+        };
+        let rows = rows
             .number("opened_um", "Gap opens", Unit::Micrometre, 3, |s| s.opened_m)
             .number("first_tan_omega", "tan ω first", Unit::One, 4, |s| s.first_tan_omega)
             .number("required_friction", "μ needed", Unit::One, 4, |s| s.required_friction)
@@ -138,11 +152,9 @@ impl LifeAnswer<'_> {
             })
             .json("share", |s| s.share)
             .json_in("half_flat_um", Unit::Micrometre, |s| s.half_flat_m)
-            .json_in("outer_track_um", Unit::Micrometre, |s| s.wear.outer_track_m)
             .json_in("inner_arcs_um", Unit::Micrometre, |s| s.wear.inner_arcs_m[0])
             .json_in("outer_arc_um", Unit::Micrometre, |s| s.wear.outer_arc_m)
             .json("capacity_by", |s| s.capacity.as_ref().map(|c| c.1.clone()))
-            .json("normal_inner_n", |s| s.normal_n)
             .json("broken", |s| s.broken.map(|why| why.names().0));
         Some(rows)
     }

@@ -13,7 +13,7 @@ use crate::design::Design;
 use crate::life::{Broken, Life, LifePlace, WornLife, life, part_at, worn_life};
 use crate::margin::{NoMargins, load_state};
 use crate::report::plot::Curve;
-use crate::report::{Page, Plot, Screen, Table, Tone, significant};
+use crate::report::{Page, Plot, Screen, Table, Tone, Unit, significant};
 use crate::scenario::{MotionKind, Settings, prepare, steady_motion};
 use std::fmt;
 
@@ -154,6 +154,21 @@ pub enum LifeKnown {
 }
 
 impl LifeAnswer<'_> {
+    /// Where sprags of a cage slide beside where they touch when they engage, and what that is worth.
+    fn slides_ahead(&self) -> Option<LeftOut> {
+        let worn = self.worn.as_ref().filter(|worn| worn.ahead_m > 0.0)?;
+        let half_m = worn.states.last()?.half_flat_m;
+        Some(LeftOut::new(
+            "the place of the flat on the outer arc",
+            "a film or the clearance of the cage holds sprags open in overrun: they slide farther ahead than where they touch when they              engage, where the flat is taken to be",
+            &format!(
+                "at most {} ahead as drawn, beside a flat of {} to either side in the end: a bound, the less is missing where                  they engage",
+                Unit::Millimetre.show(worn.ahead_m, 3),
+                Unit::Millimetre.show(half_m, 3)
+            ),
+        ))
+    }
+
     /// The part of the life after which wear breaks a limit, where that is before its end.
     fn worn_out(&self) -> Option<(f64, Broken)> {
         self.worn.as_ref()?.broken().filter(|(share, _)| *share <= 1.0)
@@ -313,6 +328,7 @@ impl Said for LifeAnswer<'_> {
                 ),
             )
         }));
+        all.extend(self.slides_ahead());
         all.extend(left_out_of(self.design));
         all
     }
