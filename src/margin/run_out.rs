@@ -18,8 +18,8 @@
 //!
 //! Left out: the ring law is that of sprags loaded alike, so a sprag's share of the growth comes from its own force
 //! alone. Rings that stay round under uneven load would oppose a sprag's excess by the contacts alone: the excess over
-//! the mean is too small by up to 1/(1 - p), p the part of the rings in what yields. Also left out: of a shift the
-//! square, and what it does to tan omega.
+//! the mean is too small by up to 1/(1 - p), p the part of the rings in what yields; rings as stiff as they are have rows of
+//! their own ([`super::unlike_margins`]). Also left out: of a shift the square, and what it does to tan omega.
 
 mod balance;
 mod rows;

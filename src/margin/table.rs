@@ -30,9 +30,9 @@ const PRESSURE: Limit = Limit {
 };
 
 const UNLIKE_PRESSURE: Limit = Limit {
-    explanation: "Largest pressure p_0 in a contact of any sprag where the table sharing sets them apart: sizes, gaps and places drawn or \
-                               given, races that bend, run out and give way, over a turn of the races. Closer tolerances, more or softer \
-                               sprags, stiffer races lower it.",
+    explanation: "Largest pressure p_0 in a contact of any sprag where the table sharing sets them apart or the axes lie apart: sizes, gaps \
+                               and places drawn or given, races that bend, run out and give way, over a turn of the races. Closer \
+                               tolerances, more or softer sprags, stiffer races lower it.",
     formula: "p_0 of each sprag k with its own N_k and radii; sum of its torques = torque, forces on both races in balance",
     source: "this project: sprags one by one; Johnson (4.45)",
     of: Of::UnlikePressure,
@@ -541,7 +541,7 @@ pub static LIMITS: &[&Limit] = &[
         per_si: 1.0,
         when: When::Peak,
         explanation: "Friction that a sprag needs, tangential over normal force at its worse contact, over the static friction that it \
-                      has, the largest of all sprags of the table sharing; one that does not hold even at its touch carries nothing and \
+                      has, the largest of all sprags one by one; one that does not hold even at its touch carries nothing and \
                       is not counted. A smaller wedge angle, or less spread of friction and size, lowers it.",
         formula: "largest over the sprags of |T_k|/(N_k mu_s,k)",
         source: "this project: sprags one by one; Coulomb",

@@ -1,18 +1,61 @@
-//! The worst of unlike sprags against the limits that hold for all, over a turn of the races.
+//! The worst of unlike sprags against the limits that hold for all, over a turn of the races. Sprags alike between races off centre are
+//! unlike in their gaps, and press on one another by the rings: that the rows `run-out-*` leave out.
 
 use super::limits::{Of, When};
 use super::load::{LoadState, not_carried};
 use super::row::{BeyondEnd, Demand, Margin};
 use super::table::LIMITS;
+use crate::clutch::Sharing;
 use crate::design::{Design, Limits};
 use crate::margin::Capacities;
 use crate::numeric::root;
 use crate::sharing::{Bears, Shared, Turn};
+use std::cell::RefCell;
 
 /// Resolution of a torque capacity, of the torque asked for.
 const CAPACITY: f64 = 1e-5;
 
-/// Rows of the worst sprag where the design says what sets its sprags apart; a torque beyond the end shows the demand there and continues
+/// The sprags one by one over a turn of the races, as the table sharing has them, alike where the axes lie apart without one; `None` where
+/// nothing sets them apart.
+pub fn one_by_one<'a>(design: &Design, state: &'a LoadState) -> Option<Turn<'a>> {
+    let clutch = &design.clutch;
+    match &design.sharing {
+        Some(sharing) => Some(Turn::new(clutch, sharing, &state.curve)),
+        None => clutch.races.eccentricity.map(|_| Turn::new(clutch, &Sharing::default(), &state.curve)),
+    }
+}
+
+/// A turn, and what it has found so far, by torque.
+struct Found<'a> {
+    turn: Turn<'a>,
+    at: RefCell<Vec<(f64, Option<Vec<Shared>>)>>,
+    ends: RefCell<Vec<(f64, Option<f64>)>>,
+}
+
+impl Found<'_> {
+    /// What `of` says of the sprags at `torque_nm`; `None` where that is not carried.
+    fn at<T>(&self, torque_nm: f64, of: impl Fn(&[Shared]) -> Option<T>) -> Option<T> {
+        let known = self.at.borrow().iter().position(|(torque, _)| *torque == torque_nm);
+        let k = known.unwrap_or_else(|| {
+            let found = self.turn.at(torque_nm).ok();
+            self.at.borrow_mut().push((torque_nm, found));
+            self.at.borrow().len() - 1
+        });
+        self.at.borrow()[k].1.as_deref().and_then(of)
+    }
+
+    /// Torque up to `beyond_nm` that is carried at every place; `None`: all of it.
+    fn end(&self, beyond_nm: f64) -> Option<f64> {
+        let known = self.ends.borrow().iter().find(|(beyond, _)| *beyond == beyond_nm).map(|found| found.1);
+        known.unwrap_or_else(|| {
+            let end = self.turn.end(beyond_nm).map(|(held, _)| held);
+            self.ends.borrow_mut().push((beyond_nm, end));
+            end
+        })
+    }
+}
+
+/// Rows of the worst sprag where something sets the sprags apart; a torque beyond the end shows the demand there and continues
 /// as the shortfall of torque.
 pub fn unlike_margins(
     design: &Design,
@@ -20,9 +63,9 @@ pub fn unlike_margins(
     state: &LoadState,
     capacities: Capacities,
 ) -> Vec<Margin> {
-    let Some(sharing) = &design.sharing else { return Vec::new() };
-    let turn = Turn::new(&design.clutch, sharing, &state.curve);
-    let sprags = &turn.first().sprags;
+    let Some(turn) = one_by_one(design, state) else { return Vec::new() };
+    let turn = Found { turn, at: RefCell::default(), ends: RefCell::default() };
+    let sprags = &turn.turn.first().sprags;
     // Friction in units of what the sprag has.
     let demanded = |of: Of, i: usize, load: &Bears| match of {
         Of::UnlikeFriction => load.required_friction() / sprags[i].friction,
@@ -42,11 +85,11 @@ pub fn unlike_margins(
         };
         let (Some(allowed), Some(torque)) = (allowed, limit.when.torque_nm(limits)) else { continue };
         let mut end_nm = torque;
-        let found = turn.at(torque).or_else(|_| {
-            end_nm = turn.end(torque).map_or(torque, |(held, _)| held);
-            turn.at(end_nm)
+        let at = |torque: f64| turn.at(torque, |turned| worst(limit.of, turned));
+        let found = at(torque).or_else(|| {
+            end_nm = turn.end(torque).unwrap_or(torque);
+            at(end_nm)
         });
-        let found = found.ok().and_then(|turned| worst(limit.of, &turned));
         let demand = match (found, end_nm < torque) {
             (Some((value, _)), false) => Demand::Value(value),
             (value, _) => Demand::Overloaded {
@@ -54,15 +97,11 @@ pub fn unlike_margins(
                 beyond: BeyondEnd::Short((end_nm / torque - 1.0).min(0.0)),
             },
         };
-        let over = |torque: f64| {
-            turn.at(torque)
-                .ok()
-                .and_then(|turned| worst(limit.of, &turned))
-                .map_or(f64::NAN, |(value, _)| value - allowed)
-        };
+        let over = |torque: f64| at(torque).map_or(f64::NAN, |(value, _)| value - allowed);
         let who = found.map_or("none carries".to_owned(), |(_, i)| format!("sprag {}", i + 1));
+        let alike = if design.sharing.is_none() { ", alike but for their gaps off centre" } else { "" };
         rows.push(Margin {
-            name: format!("{}: {who}", limit.name()),
+            name: format!("{}: {who}{alike}", limit.name()),
             aside: not_carried(torque, end_nm),
             torque_capacity_nm: (capacities == Capacities::Wanted)
                 .then(|| capacity(&turn, state, torque, end_nm, &over))
@@ -75,7 +114,7 @@ pub fn unlike_margins(
 
 /// Torque at which `over` rises to 0, N m; `None`: not before the end.
 fn capacity(
-    turn: &Turn,
+    turn: &Found,
     state: &LoadState,
     torque_nm: f64,
     end_nm: f64,
@@ -93,7 +132,7 @@ fn capacity(
         let mut at_b = over(b);
         if at_b.is_nan() {
             // Unlike sprags end before the curve of sprags alike does.
-            most = turn.end(b)?.0;
+            most = turn.end(b)?;
             b = most;
             at_b = over(b);
         }

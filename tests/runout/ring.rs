@@ -18,7 +18,7 @@ const LARGER: [(&str, &str); 4] = [
 ];
 
 /// The design without [optimize], with each `from` replaced once and its axes apart.
-fn off_centre(keys: &str, changes: &[(&str, &str)]) -> (Design, LoadState) {
+pub fn off_centre(keys: &str, changes: &[(&str, &str)]) -> (Design, LoadState) {
     let mut text = DESIGN[..DESIGN.find("[optimize]").unwrap()].to_owned();
     let apart = format!("eccentricity = {{ {keys} }}\nwidth_mm = 6.0      ");
     for (from, to) in changes.iter().copied().chain([("width_mm = 6.0      ", apart.as_str())]) {
@@ -30,13 +30,13 @@ fn off_centre(keys: &str, changes: &[(&str, &str)]) -> (Design, LoadState) {
     (design, state)
 }
 
-fn ring(keys: &str) -> (Design, LoadState, RunOut) {
+pub fn ring(keys: &str) -> (Design, LoadState, RunOut) {
     let (design, state) = off_centre(keys, &[]);
     let ring = RunOut::new(&design, &state).unwrap();
     (design, state, ring)
 }
 
-fn row<'a>(rows: &'a [Margin], code: &str) -> &'a Margin {
+pub fn row<'a>(rows: &'a [Margin], code: &str) -> &'a Margin {
     rows.iter().find(|r| r.code() == code).unwrap_or_else(|| panic!("no row {code}"))
 }
 

@@ -3,8 +3,9 @@
 use crate::answer::left_out::LeftOut;
 use crate::clutch::Carrier;
 use crate::design::Design;
-use crate::margin::{LoadState, Round, RunOut, Survey};
+use crate::margin::{LoadState, Round, RunOut, Survey, one_by_one};
 use crate::report::{Unit, significant};
+use crate::sharing::Turn;
 use serde::Serialize;
 
 /// One sprag of the JSON.
@@ -31,6 +32,8 @@ pub struct At {
     pub windup_deg: f64,
     /// Largest normal force of a sprag over the mean.
     pub largest_share: f64,
+    /// The same of sprags one by one between races that bend, over a turn of the races; null: they do not carry it.
+    pub largest_share_coupled: Option<f64>,
     /// The same if the rings did not yield to uneven load at all: an upper bound.
     pub largest_share_rigid: f64,
     /// Sprags without load in any round.
@@ -78,7 +81,7 @@ fn growing(state: &LoadState, torque_nm: f64) -> Option<f64> {
     Some(rings / (rings + d.contact_inner.d + d.contact_outer.d + d.body.d))
 }
 
-fn at(ring: &RunOut, state: &LoadState, torque: &'static str, survey: &Survey) -> At {
+fn at(ring: &RunOut, state: &LoadState, turn: &Turn, torque: &'static str, survey: &Survey) -> At {
     let round = survey.worst_round();
     let (largest_share, worst) = round.share();
     let mean = round.loads.iter().map(|l| l.normal_n).sum::<f64>() / round.loads.len() as f64;
@@ -94,6 +97,10 @@ fn at(ring: &RunOut, state: &LoadState, torque: &'static str, survey: &Survey) -
         torque_nm: survey.torque_nm,
         windup_deg: Unit::Degree.from_si(round.windup_rad),
         largest_share,
+        largest_share_coupled: turn
+            .at(survey.torque_nm)
+            .ok()
+            .map(|places| places.iter().flat_map(|shared| shared.shares()).fold(0.0, f64::max)),
         // A sprag that takes more than the mean is then opposed by the rest alone.
         largest_share_rigid: growing(state, survey.torque_nm)
             .map_or(largest_share, |part| 1.0 + (largest_share - 1.0) / (1.0 - part)),
@@ -113,9 +120,13 @@ impl RunOutSection {
     pub(super) fn new(design: &Design, state: &LoadState, ring: &RunOut) -> Self {
         let limits = &design.limits;
         let asked = [("nominal", limits.nominal_torque_nm), ("peak", limits.peak_torque_nm)];
-        let found: Vec<(&str, Survey)> =
+        let found: Vec<(&'static str, Survey)> =
             asked.into_iter().filter_map(|(name, torque)| Some((name, ring.survey(torque?).ok()?))).collect();
         let stop = ring.end;
+        let turn = one_by_one(design, state);
+        let at =
+            |(name, survey): &(&'static str, Survey)| Some(at(ring, state, turn.as_ref()?, name, survey));
+        let at: Vec<At> = found.iter().filter_map(at).collect();
         Self {
             offset_um: Unit::Micrometre.from_si(ring.offset_m),
             indicator_um: Unit::Micrometre.from_si(2.0 * ring.offset_m),
@@ -129,8 +140,8 @@ impl RunOutSection {
             end_torque_nm: stop.torque_nm,
             end_reason: if stop.seat.is_some() { stop.reason.name() } else { "no-contact" },
             without_contact_deg: ring.empty_rad().into_iter().map(|a| Unit::Degree.from_si(a)).collect(),
-            at: found.iter().map(|(name, survey)| at(ring, state, name, survey)).collect(),
-            left_out: left_out(design, state, &found),
+            left_out: left_out(design, state, &found, &at),
+            at,
         }
     }
 
@@ -159,10 +170,14 @@ impl RunOutSection {
                 None => String::new(),
             };
             format!(
-                "Off centre at {} torque: largest normal force {} of the mean (at most {} if the rings stay round; {}), \
+                "Off centre at {} torque: largest normal force {} of the mean ({}; at most {} if the rings stay round; {}), \
                  {} of {} sprags without load, bearings hold {}{shift}",
                 at.torque,
                 significant(at.largest_share, 4),
+                match at.largest_share_coupled {
+                    Some(share) => format!("{} in races that bend under all sprags", significant(share, 4)),
+                    None => "in races that bend under all sprags it is not carried".to_owned(),
+                },
                 significant(at.largest_share_rigid, 4),
                 at.words,
                 at.sprags_without_load,
@@ -182,7 +197,7 @@ impl RunOutSection {
 }
 
 /// Terms with their size at the largest torque found.
-fn left_out(design: &Design, state: &LoadState, found: &[(&str, Survey)]) -> Vec<LeftOut> {
+fn left_out(design: &Design, state: &LoadState, found: &[(&str, Survey)], at: &[At]) -> Vec<LeftOut> {
     let share = found.iter().map(|(_, s)| s.worst_round().share().0).fold(1.0, f64::max);
     let torque = found.last().map(|(_, s)| s.torque_nm);
     let ring_part = torque.and_then(|t| growing(state, t));
@@ -190,11 +205,16 @@ fn left_out(design: &Design, state: &LoadState, found: &[(&str, Survey)]) -> Vec
     let mut list = vec![
         LeftOut::new(
             "coupling of neighbouring sprags through the rings, off centre",
-            "the ring law is that of sprags loaded alike: each sprag's growth of the rings follows its own force",
+            "in rows run-out-*: their ring law is that of sprags loaded alike, each sprag's growth of the rings follows its own force; rows \
+             sprag-* have races that bend",
             &ring_part.map_or("not estimated: no torque is asked for".to_owned(), |part| {
+                let coupled = at.iter().map(|at| at.largest_share_coupled);
+                let coupled = coupled.collect::<Option<Vec<f64>>>().map_or("not carried".to_owned(), |all| {
+                    percent(all.into_iter().fold(1.0, f64::max) - 1.0)
+                });
                 format!(
-                    "the worst sprag's excess over the mean, {}, is {} at most, if the rings stay round under uneven load: \
-                     their growth is {} of what yields",
+                    "the worst sprag's excess over the mean, {}, is {coupled} in rows sprag-*; {} at most, if the rings stay round \
+                     under uneven load: their growth is {} of what yields",
                     percent(share - 1.0),
                     percent((share - 1.0) / (1.0 - part)),
                     percent(part)
