@@ -104,7 +104,7 @@ impl Broken {
             Self::Gap => ("gap", "the sprags no longer span the gap"),
             Self::Cage => (
                 "cage",
-                "the cage keeps the sprags off the outer race: they would have to go farther out than cage.clearance_um",
+                "the cage keeps the sprags off the outer race: they would have to go farther out than its clearance lets them",
             ),
             Self::Friction => {
                 ("friction", "the sprags ask for more static friction than there is: they slip")

@@ -32,7 +32,7 @@ pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_
 pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
 pub use track_tension::{TrackPatch, TrackTension, track_tension};
-pub use unlike::{one_by_one, unlike_margins};
+pub use unlike::unlike_margins;
 
 use crate::clutch::{Clutch, Scenario};
 use crate::design::{Design, Limits};

@@ -17,7 +17,7 @@ const CAPACITY: f64 = 1e-5;
 
 /// The sprags one by one over a turn of the races, as the table sharing has them, alike where the axes lie apart without one; `None` where
 /// nothing sets them apart.
-pub fn one_by_one<'a>(design: &Design, state: &'a LoadState) -> Option<Turn<'a>> {
+fn one_by_one<'a>(design: &Design, state: &'a LoadState) -> Option<Turn<'a>> {
     let clutch = &design.clutch;
     match &design.sharing {
         Some(sharing) => Some(Turn::new(clutch, sharing, &state.curve)),

@@ -3,6 +3,7 @@
 use super::{Asked, NotShared, Shared, Unlike};
 use crate::clutch::{Clutch, Sharing};
 use crate::wedge::WedgeCurve;
+use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Places of the widest gap that are looked at in a turn, every 30 deg: a choice.
@@ -49,10 +50,10 @@ impl<'a> Turn<'a> {
     /// # Errors
     /// The [`NotShared`] of the first place that does not carry it.
     pub fn at(&self, torque_nm: f64) -> Result<Vec<Shared>, NotShared> {
-        self.places
-            .iter()
-            .map(|(clutch, turned)| clutch.carrying(Asked::Torque(torque_nm), *turned))
-            .collect()
+        let places = self.places.par_iter();
+        let found: Vec<_> =
+            places.map(|(clutch, turned)| clutch.carrying(Asked::Torque(torque_nm), *turned)).collect();
+        found.into_iter().collect()
     }
 
     /// Torque, N m, up to `beyond_nm` that is carried at every place, to 1e-7 of that, and what ends it; `None`: all of it.

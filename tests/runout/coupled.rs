@@ -1,8 +1,9 @@
 //! Sprags off centre between races that bend under all of them: rows `sprag-*` beside rows `run-out-*`.
 
 use super::ring::{off_centre, ring, row};
-use sprag_design::margin::{Capacities, load_margins, one_by_one, run_out_margins, unlike_margins};
-use sprag_design::sharing::Asked;
+use sprag_design::clutch::Sharing;
+use sprag_design::margin::{Capacities, load_margins, run_out_margins, unlike_margins};
+use sprag_design::sharing::{Asked, Turn};
 use std::f64::consts::TAU;
 
 /// Axes on one another: the sprags carry alike to 1e-10, whatever bends.
@@ -47,7 +48,7 @@ fn bending_adds_to_what_each_gap_alone_gives() {
     for (keys, turning) in [("offset_mm = 0.01", false), ("offset_mm = 0.01, turning = true", true)] {
         let (design, state, ring) = ring(keys);
         let survey = ring.survey(90.0).unwrap();
-        let turn = one_by_one(&design, &state).unwrap();
+        let turn = Turn::new(&design.clutch, &Sharing::default(), &state.curve);
         let unbent = turn.first().unbent();
         for round in &survey.rounds {
             let turned = -TAU * round.turned as f64 / 12.0;

@@ -1,9 +1,9 @@
 //! Races off centre in the margin check: words, JSON, what stays left out.
 
 use crate::answer::left_out::LeftOut;
-use crate::clutch::Carrier;
+use crate::clutch::{Carrier, Sharing};
 use crate::design::Design;
-use crate::margin::{LoadState, Round, RunOut, Survey, one_by_one};
+use crate::margin::{LoadState, Round, RunOut, Survey};
 use crate::report::{Unit, significant};
 use crate::sharing::Turn;
 use serde::Serialize;
@@ -32,7 +32,7 @@ pub struct At {
     pub windup_deg: f64,
     /// Largest normal force of a sprag over the mean.
     pub largest_share: f64,
-    /// The same of sprags one by one between races that bend, over a turn of the races; null: they do not carry it.
+    /// The same of sprags alike between races that bend under all of them, over a turn; null: they do not carry it.
     pub largest_share_coupled: Option<f64>,
     /// The same if the rings did not yield to uneven load at all: an upper bound.
     pub largest_share_rigid: f64,
@@ -123,10 +123,9 @@ impl RunOutSection {
         let found: Vec<(&'static str, Survey)> =
             asked.into_iter().filter_map(|(name, torque)| Some((name, ring.survey(torque?).ok()?))).collect();
         let stop = ring.end;
-        let turn = one_by_one(design, state);
-        let at =
-            |(name, survey): &(&'static str, Survey)| Some(at(ring, state, turn.as_ref()?, name, survey));
-        let at: Vec<At> = found.iter().filter_map(at).collect();
+        let turn = Turn::new(&design.clutch, &Sharing::default(), &state.curve);
+        let at = |(name, survey): &(&'static str, Survey)| at(ring, state, &turn, name, survey);
+        let at: Vec<At> = found.iter().map(at).collect();
         Self {
             offset_um: Unit::Micrometre.from_si(ring.offset_m),
             indicator_um: Unit::Micrometre.from_si(2.0 * ring.offset_m),

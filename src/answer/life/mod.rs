@@ -160,9 +160,11 @@ impl LifeAnswer<'_> {
         let half_m = worn.states.last()?.half_flat_m;
         Some(LeftOut::new(
             "the place of the flat on the outer arc",
-            "a film or the clearance of the cage holds sprags open in overrun: they slide farther ahead than where they touch when they              engage, where the flat is taken to be",
+            "a film or the clearance of the cage holds sprags open in overrun: they slide farther ahead than where they touch when they \
+             engage, where the flat is taken to be",
             &format!(
-                "at most {} ahead as drawn, beside a flat of {} to either side in the end: a bound, the less is missing where                  they engage",
+                "at most {} ahead as drawn, beside a flat of {} to either side in the end: a bound, the less is missing where \
+                 they engage",
                 Unit::Millimetre.show(worn.ahead_m, 3),
                 Unit::Millimetre.show(half_m, 3)
             ),
