@@ -34,7 +34,7 @@ pub struct At {
     pub largest_share: f64,
     /// The same of sprags alike between races that bend under all of them, over a turn; null: they do not carry it.
     pub largest_share_coupled: Option<f64>,
-    /// The same if the rings did not yield to uneven load at all: an upper bound.
+    /// The same if the rings did not yield to uneven load at all, by first order.
     pub largest_share_rigid: f64,
     /// Sprags without load in any round.
     pub sprags_without_load: usize,
@@ -169,7 +169,7 @@ impl RunOutSection {
                 None => String::new(),
             };
             format!(
-                "Off centre at {} torque: largest normal force {} of the mean ({}; at most {} if the rings stay round; {}), \
+                "Off centre at {} torque: largest normal force {} of the mean ({}; some {} if the rings stay round; {}), \
                  {} of {} sprags without load, bearings hold {}{shift}",
                 at.torque,
                 significant(at.largest_share, 4),
@@ -212,7 +212,7 @@ fn left_out(design: &Design, state: &LoadState, found: &[(&str, Survey)], at: &[
                     percent(all.into_iter().fold(1.0, f64::max) - 1.0)
                 });
                 format!(
-                    "the worst sprag's excess over the mean, {}, is {coupled} in rows sprag-*; {} at most, if the rings stay round \
+                    "the worst sprag's excess over the mean, {}, is {coupled} in rows sprag-*; some {}, if the rings stay round \
                      under uneven load: their growth is {} of what yields",
                     percent(share - 1.0),
                     percent((share - 1.0) / (1.0 - part)),
