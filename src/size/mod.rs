@@ -20,4 +20,4 @@ pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
 pub use requirements::{
     BadRequirement, FRICTION, PEAK_OVER_NOMINAL, Requirements, TorqueSwing, Wish, torques_nm,
 };
-pub use search::{Freed, NoSize, Sized, Tried, size};
+pub use search::{NoSize, Sized, Tried, WouldDo, size};

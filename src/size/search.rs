@@ -50,7 +50,7 @@ pub struct Sized {
 
 /// A clutch that does it beyond a size that was asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Freed {
+pub struct WouldDo {
     /// Its outer diameter, m, where it is that which is larger.
     pub outside_m: Option<f64>,
     /// Its width, m, where it is that which is larger.
@@ -67,7 +67,7 @@ pub enum NoSize {
         /// Those tried.
         tried: Vec<Tried>,
         /// What would do where a size that was asked for is left out.
-        freed: Vec<Freed>,
+        freed: Vec<WouldDo>,
     },
 }
 
@@ -95,7 +95,7 @@ impl fmt::Display for NoSize {
                 match freed.as_slice() {
                     [] => Ok(()),
                     some => {
-                        let each: Vec<String> = some.iter().map(Freed::to_string).collect();
+                        let each: Vec<String> = some.iter().map(WouldDo::to_string).collect();
                         write!(f, "{end}what would do: {}", each.join(", or "))
                     }
                 }
@@ -104,7 +104,7 @@ impl fmt::Display for NoSize {
     }
 }
 
-impl fmt::Display for Freed {
+impl fmt::Display for WouldDo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let more = [("outside", self.outside_m), ("width", self.width_m)];
         let each: Vec<String> = more
@@ -170,7 +170,7 @@ fn found(wanted: &Requirements, settings: &Settings) -> Result<Sized, Vec<Tried>
 }
 
 /// What does it without each of the sizes that were asked for, and, where neither alone is enough, without both.
-fn freed(wanted: &Requirements, settings: &Settings) -> Vec<Freed> {
+fn freed(wanted: &Requirements, settings: &Settings) -> Vec<WouldDo> {
     let without = |outside: bool, width: bool| {
         let free = Requirements {
             outside_m: wanted.outside_m.filter(|_| !outside),
@@ -179,14 +179,14 @@ fn freed(wanted: &Requirements, settings: &Settings) -> Vec<Freed> {
         };
         let races = found(&free, settings).ok()?.made.design.clutch.races;
         let beyond = |m: f64, most: Option<f64>| Some(m).filter(|m| most.is_some_and(|most| *m > most));
-        Some(Freed {
+        Some(WouldDo {
             outside_m: beyond(2.0 * races.outer_outside_radius_m, wanted.outside_m),
             width_m: beyond(races.width_m, wanted.width_m),
         })
     };
     let asked = [wanted.outside_m.is_some(), wanted.width_m.is_some()];
     let one = [(true, false), (false, true)].into_iter().zip(asked).filter(|(_, asked)| *asked);
-    let one: Vec<Freed> = one.filter_map(|((outside, width), _)| without(outside, width)).collect();
+    let one: Vec<WouldDo> = one.filter_map(|((outside, width), _)| without(outside, width)).collect();
     match one.is_empty() && asked == [true, true] {
         true => without(true, true).into_iter().collect(),
         false => one,

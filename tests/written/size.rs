@@ -10,7 +10,7 @@ use sprag_design::margin::{Capacities, load_margins, load_state, margins};
 use sprag_design::material::steel;
 use sprag_design::scenario::{Settings, Verdict, prepare, simulate};
 use sprag_design::size::{
-    Decider, Freed, NoSize, PURPOSES, Requirements, Sized, Tried, WARMER_K, Wish, purpose, size,
+    Decider, NoSize, PURPOSES, Requirements, Sized, Tried, WARMER_K, Wish, WouldDo, purpose, size,
 };
 
 fn stderr(output: &std::process::Output) -> String {
@@ -236,7 +236,9 @@ fn what_an_engineer_asks_for_is_kept_or_named_as_what_prevents_it() {
     };
     let NoSize::None { tried, freed } = &why else { unreachable!() };
     // What to give more of is said, and does.
-    let [Freed { outside_m: Some(outside_m), width_m: None }] = freed.as_slice() else { panic!("{freed:?}") };
+    let [WouldDo { outside_m: Some(outside_m), width_m: None }] = freed.as_slice() else {
+        panic!("{freed:?}")
+    };
     let told = (outside_m * 1e4 - 1e-6).ceil() / 10.0;
     assert!(why.to_string().ends_with(&format!("what would do: `outside` {told} mm")), "{why}");
     assert!(sized(&Wish { outside_m: Some(told / 1e3), ..asked }.requirements()).is_ok());
