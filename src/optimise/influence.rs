@@ -40,9 +40,10 @@ impl Influence {
         Self { objectives: slopes, limits, tie_break, unknown, evaluations, derivatives }
     }
 
-    /// Variables whose every slope is below [`NO_INFLUENCE`] in size, the tie break's included.
-    pub fn without(&self) -> Vec<usize> {
-        let rows = || self.objectives.iter().chain(&self.limits).chain([&self.tie_break]);
+    /// Variables whose every slope is below [`NO_INFLUENCE`] in size, the tie break's included; limits at the places `but` tell nothing.
+    pub fn without(&self, but: &[usize]) -> Vec<usize> {
+        let limits = || self.limits.iter().enumerate().filter(|(j, _)| !but.contains(j)).map(|(_, row)| row);
+        let rows = || self.objectives.iter().chain(limits()).chain([&self.tie_break]);
         (0..self.tie_break.len())
             .filter(|i| !self.unknown.contains(i) && rows().all(|row| row[*i].abs() < NO_INFLUENCE))
             .collect()
@@ -73,7 +74,7 @@ pub fn influence<'a>(
 }
 
 /// The same by the slopes that the problem has itself; `None` where one is not known, or a variable is so little felt that these
-/// do not tell whether it is.
+/// do not tell whether it is; limits at the places `but` do not count.
 ///
 /// # Errors
 /// As [`influence`].
@@ -82,6 +83,7 @@ pub(super) fn own_influence<'a>(
     x0: &[f64],
     lo: &[f64],
     hi: &[f64],
+    but: &[usize],
     run: SearchRun<'a>,
 ) -> Result<Option<Influence>, Refusal> {
     let space = Space::new(x0, lo, hi)?;
@@ -89,7 +91,8 @@ pub(super) fn own_influence<'a>(
     let here = memo.one(x0.to_vec()).map_err(|_| Refusal::StoppedAtStart)?.map_err(Refusal::StartFails)?;
     let found = own_slopes(&mut memo, &space, &space.start(), here.outputs().len());
     let Some(slopes) = found.map_err(|_| Refusal::StoppedAtStart)? else { return Ok(None) };
-    let is_felt = |i: usize| slopes.iter().any(|row| row[i].abs() > FELT);
+    let tells = |k: &usize| k.checked_sub(here.objectives.len()).is_none_or(|limit| !but.contains(&limit));
+    let is_felt = |i: usize| (0..slopes.len()).filter(tells).any(|k| slopes[k][i].abs() > FELT);
     let known = slopes.iter().flatten().all(|slope| slope.is_finite());
     let told = known && (0..space.len()).all(is_felt);
     Ok(told.then(|| Influence::of(slopes, here.objectives.len(), Vec::new(), &memo)))

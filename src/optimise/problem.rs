@@ -13,7 +13,7 @@ use crate::design::{Design, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optim
 use crate::fidelity::{self, Effort};
 use crate::file::{DesignForm, EditError, content, with_limits, with_values};
 use crate::margin::{
-    Capacities, LoadRows, LoadState, Margin, NoMargins, RESOLUTION, RunOut, SceneDemand, load_state_at,
+    Capacities, LoadRows, LoadState, Margin, NoMargins, RESOLUTION, RunOut, SceneDemand, When, load_state_at,
     run_out_margins, scene_margins, scene_rows, unlike_margins,
 };
 use crate::scenario::{AtRest, Prepared, RollingTrack, Settings, demand, demand_tracked};
@@ -521,6 +521,15 @@ impl ClutchProblem {
     /// The rows that are limits, in the order of [`Evaluation`].
     pub fn limit_rows<'r>(&self, rows: &'r [Margin]) -> Vec<&'r Margin> {
         rows.iter().filter(|m| self.is_limit(m)).collect()
+    }
+
+    /// Places among them of what flanks have left that are no variables.
+    pub(super) fn room_places(&self, rows: &[Margin]) -> Vec<usize> {
+        if self.frees_flanks() {
+            return Vec::new();
+        }
+        let limits = self.limit_rows(rows).into_iter().enumerate();
+        limits.filter(|(_, row)| row.limit.when == When::Outline).map(|(place, _)| place).collect()
     }
 
     /// Objectives, each (measure - from)/span of its goal; limits; and the largest Hertz pressure in GPa as the tie

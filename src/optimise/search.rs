@@ -195,6 +195,8 @@ pub fn search_problem(
     let continuous: Vec<String> =
         task.variables.iter().filter(|v| !v.whole).map(|v| v.name.clone()).collect();
     let inner = whole.over(continuous.clone());
+    // Nearly every variable of the profile moves what the flanks have left, and where that is enough it is no reason to climb.
+    let rooms = whole.room_places(&start.rows);
     desk.begins("influence of the variables");
     let quick = inner.quickly();
     let table = if continuous.is_empty() {
@@ -202,7 +204,9 @@ pub fn search_problem(
     } else {
         let (lo, hi) = bounds(&variables, &continuous);
         let x = starts(&variables, &continuous);
-        let own = desk.run(&quick, |quick, run| own_influence(quick, &x, &lo, &hi, run)).map_err(refused)?;
+        let own = desk
+            .run(&quick, |quick, run| own_influence(quick, &x, &lo, &hi, &rooms, run))
+            .map_err(refused)?;
         let by_differences =
             || desk.run(&inner, |inner, run| influence(inner, &x, &lo, &hi, &method.climb, run));
         own.map_or_else(by_differences, Ok).map_err(refused)?
@@ -212,7 +216,7 @@ pub fn search_problem(
     let (idle, felt_at, looked_at) = {
         let (lo, hi) = bounds(&variables, &continuous);
         let x = starts(&variables, &continuous);
-        idle_everywhere(desk, &inner, table.without(), &x, (&lo, &hi), method)
+        idle_everywhere(desk, &inner, table.without(&rooms), &x, (&lo, &hi), &rooms, method)
     };
     evaluations += looked_at;
     let idle: Vec<String> = idle.into_iter().map(|i| continuous[i].clone()).collect();

@@ -361,13 +361,14 @@ const TOGETHER: usize = 3;
 
 /// Those of the variables `idle`, without influence at the start `x0`, that have none elsewhere either: with them at
 /// their ends, and at points spread over the box; the points at which one of the others is felt, from which to climb as well,
-/// because nothing draws a climb from the start there; and the evaluations that this took.
+/// because nothing draws a climb from the start there; and the evaluations that this took. Limits at the places `but` do not count.
 pub(super) fn idle_everywhere(
     desk: &Desk,
     problem: &ClutchProblem,
     mut idle: Vec<usize>,
     x0: &[f64],
     (lo, hi): (&[f64], &[f64]),
+    but: &[usize],
     method: &SearchMethod,
 ) -> (Vec<usize>, Vec<Vec<f64>>, usize) {
     let mut felt_at = Vec::new();
@@ -404,7 +405,7 @@ pub(super) fn idle_everywhere(
             continue;
         };
         spent += table.evaluations;
-        let without = table.without();
+        let without = table.without(but);
         if level.iter().any(|i| !without.contains(i)) {
             felt_at.push(x.clone());
         }
