@@ -1632,6 +1632,10 @@ class Feed(_Common):
     """Windup under the brake, which every stroke loses, degrees."""
     limit_hz: float | None
     """Frequency beyond which strokes first fail, Hz."""
+    looks: int
+    """How many frequencies between those that were asked for were looked at."""
+    lost_between_hz: float | None
+    """The first that was met beyond ``limit_hz``, Hz, where it lies between two that were asked for."""
     bears_nm: float | None
     """Peak torque that every limit bears, N m."""
     bears_by: str | None
