@@ -169,7 +169,7 @@ impl RunOutSection {
                 None => String::new(),
             };
             format!(
-                "Off centre at {} torque: largest normal force {} of the mean ({}; some {} if the rings stay round; {}), \
+                "Off centre at {} torque: largest normal force {} of the mean ({}; {}), \
                  {} of {} sprags without load, bearings hold {}{shift}",
                 at.torque,
                 significant(at.largest_share, 4),
@@ -177,7 +177,6 @@ impl RunOutSection {
                     Some(share) => format!("{} in races that bend under all sprags", significant(share, 4)),
                     None => "in races that bend under all sprags it is not carried".to_owned(),
                 },
-                significant(at.largest_share_rigid, 4),
                 at.words,
                 at.sprags_without_load,
                 at.sprags.len(),
@@ -204,16 +203,15 @@ fn left_out(design: &Design, state: &LoadState, found: &[(&str, Survey)], at: &[
     let mut list = vec![
         LeftOut::new(
             "coupling of neighbouring sprags through the rings, off centre",
-            "in rows run-out-*: their ring law is that of sprags loaded alike, each sprag's growth of the rings follows its own force; rows \
-             sprag-* have races that bend",
+            "in rows run-out-* each sprag's growth of the rings follows its own force; rows sprag-* have races that bend",
             &ring_part.map_or("not estimated: no torque is asked for".to_owned(), |part| {
                 let coupled = at.iter().map(|at| at.largest_share_coupled);
                 let coupled = coupled.collect::<Option<Vec<f64>>>().map_or("not carried".to_owned(), |all| {
                     percent(all.into_iter().fold(1.0, f64::max) - 1.0)
                 });
                 format!(
-                    "the worst sprag's excess over the mean, {}, is {coupled} in rows sprag-*; some {}, if the rings stay round \
-                     under uneven load: their growth is {} of what yields",
+                    "the worst sprag's excess over the mean, {}, is {coupled} in rows sprag-*; some {} if the rings stay round: \
+                     their growth is {} of what yields",
                     percent(share - 1.0),
                     percent((share - 1.0) / (1.0 - part)),
                     percent(part)
