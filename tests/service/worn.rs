@@ -2,7 +2,7 @@
 use sprag_design::answer::Answer;
 use sprag_design::clutch::{PittingStrength, Service};
 use sprag_design::design::Design;
-use sprag_design::life::{Life, Wear, life, worn, worn_life, worn_state};
+use sprag_design::life::{Life, Wear, WornState, life, worn, worn_life, worn_state};
 use sprag_design::margin::{Capacities, LoadState, load_margins, load_state, lowest_capacity, overrun_at};
 use sprag_design::wedge::{SpragDeviation, WedgeCurve};
 
@@ -102,6 +102,24 @@ fn service_of(hours: f64) -> Service {
     design(false, hours, 1.0).service.unwrap()
 }
 
+/// Volume that wears off from the first of the `states` to the last, m^3, `rate` by the share of the life: Simpson over each stretch, its
+/// middle by the mean wear of its ends, which bends little.
+pub fn worn_off_m3(states: &[&WornState], rate: impl Fn(&Wear) -> f64) -> f64 {
+    let mut volume = 0.0;
+    for pair in states.windows(2) {
+        let (a, b) = (&pair[0].wear, &pair[1].wear);
+        let middle = Wear {
+            sprag_m3: 0.5 * (a.sprag_m3 + b.sprag_m3),
+            inner_track_m: 0.5 * (a.inner_track_m + b.inner_track_m),
+            outer_track_m: 0.5 * (a.outer_track_m + b.outer_track_m),
+            inner_arcs_m: [0, 1].map(|i| 0.5 * (a.inner_arcs_m[i] + b.inner_arcs_m[i])),
+            outer_arc_m: 0.5 * (a.outer_arc_m + b.outer_arc_m),
+        };
+        volume += (pair[1].share - pair[0].share) / 6.0 * (rate(a) + 4.0 * rate(&middle) + rate(b));
+    }
+    volume
+}
+
 /// int k N ds over a long life, summed here from the states of a march with other steps: the force falls as the spring relaxes.
 #[test]
 fn over_a_life_the_volume_is_the_integral_of_the_force() {
@@ -123,19 +141,7 @@ fn over_a_life_the_volume_is_the_integral_of_the_force() {
     };
     let states: Vec<_> = found.states.iter().filter(|s| s.share <= 1.0).collect();
     assert!(states.len() > 4, "{}", states.len());
-    // Simpson over each stretch, its middle by the mean wear of its ends, which bends little.
-    let mut volume = 0.0;
-    for pair in states.windows(2) {
-        let (a, b) = (&pair[0].wear, &pair[1].wear);
-        let middle = Wear {
-            sprag_m3: 0.5 * (a.sprag_m3 + b.sprag_m3),
-            inner_track_m: 0.5 * (a.inner_track_m + b.inner_track_m),
-            outer_track_m: 0.5 * (a.outer_track_m + b.outer_track_m),
-            inner_arcs_m: [0, 1].map(|i| 0.5 * (a.inner_arcs_m[i] + b.inner_arcs_m[i])),
-            outer_arc_m: 0.5 * (a.outer_arc_m + b.outer_arc_m),
-        };
-        volume += (pair[1].share - pair[0].share) / 6.0 * (rate(a) + 4.0 * rate(&middle) + rate(b));
-    }
+    let volume = worn_off_m3(&states, rate);
     let last = states[states.len() - 1];
     println!(
         "{volume} m^3 by hand, {} m^3; flat {} m, turned force {} N",

@@ -1,5 +1,6 @@
 //! Wear of sprags that a cage carries with the inner race: the flat on the outer arc, and what becomes of the clutch.
 
+use crate::worn::worn_off_m3;
 use sprag_design::Design;
 use sprag_design::answer::Answer;
 use sprag_design::clutch::{ContactLaw, Service};
@@ -134,18 +135,7 @@ fn over_a_life_the_volume_is_the_integral_of_the_force() {
         1e-18 * p.lubricated.unwrap().film.asperities * p.state.sliding_n * sliding * 50e-3 * 2000.0 * 3600.0
     };
     let states: Vec<_> = found.states.iter().filter(|s| s.share <= 1.0).collect();
-    let mut volume = 0.0;
-    for pair in states.windows(2) {
-        let (a, b) = (&pair[0].wear, &pair[1].wear);
-        let middle = Wear {
-            sprag_m3: 0.5 * (a.sprag_m3 + b.sprag_m3),
-            inner_track_m: 0.5 * (a.inner_track_m + b.inner_track_m),
-            outer_track_m: 0.5 * (a.outer_track_m + b.outer_track_m),
-            inner_arcs_m: [0, 1].map(|i| 0.5 * (a.inner_arcs_m[i] + b.inner_arcs_m[i])),
-            outer_arc_m: 0.5 * (a.outer_arc_m + b.outer_arc_m),
-        };
-        volume += (pair[1].share - pair[0].share) / 6.0 * (rate(a) + 4.0 * rate(&middle) + rate(b));
-    }
+    let volume = worn_off_m3(&states, rate);
     let last = states[states.len() - 1];
     println!("{:#?}", found.states);
     println!("{volume} m^3 by hand, {} m^3; flat {} m, {} N", last.wear.sprag_m3, last.flat_m, last.normal_n);
