@@ -14,7 +14,7 @@ pub(super) struct SideBySide(Arc<AtomicUsize>);
 impl SideBySide {
     /// `climb` from each of `starts`, in their order.
     pub fn climbs<T: Send, R: Send>(&self, starts: Vec<T>, climb: impl Fn(T) -> R + Sync) -> Vec<R> {
-        self.0.store(starts.len(), Relaxed);
+        self.0.fetch_add(starts.len(), Relaxed);
         let one = |start| {
             let end = climb(start);
             self.0.fetch_sub(1, Relaxed);

@@ -7,8 +7,8 @@ use crate::margin::{
 };
 use crate::profile::Outline;
 
-/// Half width that flanks that are variables keep beyond what the profile needs, and short of what its arcs reach: a choice. Races under
-/// load move the end of the working profile, and the contact has a width.
+/// Half width that flanks keep beyond what the profile needs, and short of what its arcs reach, where they are variables: a choice. Races
+/// under load move the end of the working profile, and the contact has a width.
 pub(super) const ROOM: f64 = 0.02;
 /// Step of torque, relative, by which the growth of the turn at the curve's end is measured.
 const BACK: f64 = 1e-3;
