@@ -116,16 +116,21 @@ def speed():
                     ratio = statistics.median(a / b for a, b in zip(of["before"], of["now"]))
                     say("speed", law, "now", setting, f"times as fast, {name} time, median of pairs", ratio)
         if BEFORE:
-            say("speed", law, "before", "", "largest difference of a margin", apart(answers["before"], answers["now"]))
+            say("speed", law, "before", "", "largest difference of a margin", apart(design, answers))
 
 
-def apart(*answers):
-    """Largest difference of a margin between two lists of answers, relative where a margin is above 1."""
+def apart(design, answers):
+    """Largest difference of a margin that both programs give, relative where a margin is above 1."""
+    told = {who: json.loads(run(binary, "evaluate", design, "--describe", "--quiet")) for who, binary in BINARIES}
+
+    def named(who):
+        for answer in map(json.loads, answers[who].splitlines()):
+            yield {(kind, name): value for kind in ("objectives", "limits") for name, value in zip(told[who][kind], answer[kind])}
+
     worst = 0.0
-    for a, b in zip(*(map(json.loads, text.splitlines()) for text in answers)):
-        assert len(a["limits"]) == len(b["limits"]) and len(a["objectives"]) == len(b["objectives"]), (a, b)
-        for x, y in zip(a["objectives"] + a["limits"], b["objectives"] + b["limits"]):
-            worst = max(worst, abs(x - y) / max(1.0, abs(y)))
+    for a, b in zip(named("before"), named("now")):
+        assert a.keys() <= b.keys(), a.keys() - b.keys()
+        worst = max(worst, *(abs(a[of] - b[of]) / max(1.0, abs(b[of])) for of in a))
     return worst
 
 
