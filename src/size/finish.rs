@@ -7,11 +7,12 @@ use super::requirements::{NAMED, Requirements};
 use crate::clutch::Clutch;
 use crate::design::{BOX, Design, Draft, rpm};
 use crate::margin::{
-    Capacities, KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
+    Capacities, KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state_at, margins, overrun_at,
 };
 use crate::numeric::rounded;
 use crate::profile::{Outline, Profile};
 use crate::scenario::Settings;
+use crate::wedge::Effort;
 use std::f64::consts::TAU;
 
 /// Margin that a first design keeps on every limit: a choice, so that rounding and the optimiser find room.
@@ -63,13 +64,17 @@ impl Made {
     }
 }
 
-/// A draft as a design with its load state.
-pub(super) fn build(draft: &Draft) -> Result<(Design, LoadState), Decider> {
-    let design = Design::parse(&draft.to_toml(), "sized.toml").map_err(|e| match e.problems().first() {
+fn read(draft: &Draft) -> Result<Design, Decider> {
+    Design::parse(&draft.to_toml(), "sized.toml").map_err(|e| match e.problems().first() {
         Some(p) => Decider::Refused { key: p.key.clone(), allowed: p.allowed.clone() },
         None => Decider::words(e),
-    })?;
-    let state = load_state(&design).map_err(Decider::words)?;
+    })
+}
+
+/// A draft as a design with its load state, its curve built with `effort`.
+pub(super) fn build(draft: &Draft, effort: Effort) -> Result<(Design, LoadState), Decider> {
+    let design = read(draft)?;
+    let state = load_state_at(&design, effort).map_err(Decider::words)?;
     Ok((design, state))
 }
 
@@ -80,7 +85,7 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
     for _ in 0..ROUNDS {
         draft.flanks_m = None;
         draft.until_rad = 1.2;
-        let (design, state) = build(&draft)?;
+        let (design, state) = build(&draft, Effort::Full)?;
         let [nominal, peak] = [(0, "nominal"), (1, "peak")].map(|(which, name)| {
             let ends = || Decider::Words(format!("the curve ends below {name} torque"));
             state.curve.at_torque(draft.torques_nm[which]).ok_or_else(ends)
@@ -192,14 +197,15 @@ fn sprung(draft: &mut Draft) -> Result<(), Decider> {
     const ROUNDS: usize = 40;
     let slow_n = normal_n(draft);
     for _ in 0..ROUNDS {
-        let (design, state) = build(draft).map_err(|why| match (&why, draft.contact_rad_s[1]) {
-            // A front flank farther out than the arcs reach.
-            (Decider::Refused { key, .. }, Some(_)) if key.starts_with("sprags.flanks") => {
-                Decider::Spring(&LIFT_OFF)
-            }
-            (Decider::Refused { key, .. }, None) if key.starts_with("sprags.flanks") => Decider::Flanks,
-            _ => why,
-        })?;
+        let (design, state) =
+            build(draft, Effort::Full).map_err(|why| match (&why, draft.contact_rad_s[1]) {
+                // A front flank farther out than the arcs reach.
+                (Decider::Refused { key, .. }, Some(_)) if key.starts_with("sprags.flanks") => {
+                    Decider::Spring(&LIFT_OFF)
+                }
+                (Decider::Refused { key, .. }, None) if key.starts_with("sprags.flanks") => Decider::Flanks,
+                _ => why,
+            })?;
         let rows = load_margins(&design, &design.limits, Capacities::LeftOut, &state);
         let short = |limit| rows.iter().find(|r| r.limit == limit && r.margin() < KEPT);
         // The closing moment is in proportion to the spring's force, but for what growth takes from its angle.
@@ -235,7 +241,7 @@ fn normal_n(draft: &Draft) -> f64 {
 
 /// The finished draft with every margin, all held; what it says of itself is what came of it.
 fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result<Made, Decider> {
-    let (design, state) = build(draft)?;
+    let (design, state) = build(draft, Effort::Full)?;
     let rows = margins(&design, &design.check_scenarios, settings).map_err(Decider::words)?;
     if let Some(row) = rows.iter().filter(|r| r.required).find(|r| !r.held()) {
         return Err(Decider::row(row));
@@ -252,7 +258,7 @@ fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result
     };
     draft.why = why_lines(wanted, draft, made.least());
     // The same numbers under other comments.
-    made.design = build(draft)?.0;
+    made.design = read(draft)?;
     Ok(made)
 }
 

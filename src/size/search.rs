@@ -10,6 +10,8 @@ use crate::design::Draft;
 use crate::margin::{Capacities, KEEP_CONTACT, LIFT_OFF, When, load_margins};
 use crate::numeric::rounded;
 use crate::scenario::Settings;
+use crate::wedge::Effort;
+use rayon::prelude::*;
 
 /// Thinnest outer race over the race space, where an outer diameter is asked for: a choice.
 const WALL: f64 = 0.25;
@@ -139,9 +141,10 @@ fn first_reason(tried: &[Tried]) -> String {
 
 impl std::error::Error for NoSize {}
 
-/// Least margin of the load state and its code; that of the sprags' grip and stress, not of the spring at speed.
+/// Least margin of the load state and its code; that of the sprags' grip and stress, not of the spring at speed. By a quick curve:
+/// what is taken is built anew in full.
 fn least(draft: &Draft) -> Result<(f64, Decider), Decider> {
-    let (design, state) = build(draft)?;
+    let (design, state) = build(draft, Effort::Sketch)?;
     let rows = load_margins(&design, &design.limits, Capacities::LeftOut, &state);
     let rows = rows.iter().filter(|r| r.required && r.limit.when != When::Overrun);
     let worst = rows.min_by(|a, b| a.margin().total_cmp(&b.margin()));
@@ -161,7 +164,7 @@ pub fn size(wanted: &Requirements, settings: &Settings) -> Result<Sized, NoSize>
 /// The smallest of every race space, or those tried.
 fn found(wanted: &Requirements, settings: &Settings) -> Result<Sized, Vec<Tried>> {
     let tried: Vec<Tried> =
-        SPACES_M.iter().filter_map(|&space_m| smallest(wanted, space_m, settings)).collect();
+        SPACES_M.par_iter().filter_map(|&space_m| smallest(wanted, space_m, settings)).collect();
     let made = tried.iter().enumerate().filter_map(|(i, t)| Some((i, t.volume_m3, t.made.clone()?)));
     match made.min_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((taken, _, made)) => Ok(Sized { made, tried, taken }),

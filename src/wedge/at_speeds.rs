@@ -2,7 +2,6 @@
 
 use super::build::Effort;
 use super::curve::{EndReason, WedgeCurve};
-use super::quick::TRUSTED;
 use crate::clutch::Clutch;
 use std::sync::{Arc, Mutex, MutexGuard};
 
@@ -71,7 +70,7 @@ impl AtSpeeds {
             };
             kept(&slot(&self.slots, speed_rad_s, Effort::Full), reach_nm, build)
         };
-        let trusted = if self.for_slopes { TRUSTED_FOR_SLOPES } else { TRUSTED };
+        let trusted = if self.for_slopes { TRUSTED_FOR_SLOPES } else { effort.trusted() };
         let does = |quick: &WedgeCurve| quick.leaves_out_less_than(trusted, reach_nm);
         match like(effort) {
             Some(like) if does(&like) => own(),

@@ -98,7 +98,7 @@ impl WedgeCurve {
         statics.effort = effort;
         statics.elastic = statics.elastic.quickly();
         match Self::march(statics, q, speed_rad_s, reach_nm, effort, like) {
-            Ok(quick) if like.is_some() || quick.leaves_out_less_than(TRUSTED, None) => Ok(quick),
+            Ok(quick) if like.is_some() || quick.leaves_out_less_than(effort.trusted(), None) => Ok(quick),
             // Or there is none: the full one decides.
             _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full, like),
         }
@@ -321,14 +321,21 @@ pub enum Effort {
     /// A quarter of the closures and no more than 1e-7 of N and windup off (test `a_quick_curve_is_the_curve`), or the full
     /// one where that does not do: for a search, whose answer is looked at once more.
     Search,
+    /// The same, taken whatever it leaves out: for a first design, whose lengths go by tenths of a millimetre.
+    Sketch,
 }
 
 impl Effort {
+    /// Largest truncation with which a quick curve is taken.
+    pub(super) fn trusted(self) -> f64 {
+        if self == Self::Sketch { f64::INFINITY } else { TRUSTED }
+    }
+
     /// Ratio of a force to the next, and to the first force, where the end of an arc is looked for.
     fn stride(self) -> [f64; 2] {
         match self {
             Self::Full => [1.1, 1.02],
-            Self::Search => [1.6, 1.2],
+            Self::Search | Self::Sketch => [1.6, 1.2],
         }
     }
 
@@ -336,7 +343,7 @@ impl Effort {
     fn end_width(self) -> [f64; 2] {
         match self {
             Self::Full => [1e-15, 1e-12],
-            Self::Search => [1e-11, 1e-9],
+            Self::Search | Self::Sketch => [1e-11, 1e-9],
         }
     }
 
@@ -344,7 +351,7 @@ impl Effort {
     pub(super) fn edge_width(self) -> f64 {
         match self {
             Self::Full => 1e-13,
-            Self::Search => 1e-9,
+            Self::Search | Self::Sketch => 1e-9,
         }
     }
 }

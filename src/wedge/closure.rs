@@ -415,7 +415,7 @@ impl Statics {
             let there = rolled_on.v.abs() <= 1e-14 && rolled_on.d.abs() <= 1e-12 * on.d.abs();
             let still = moved.v <= 1e-14 && moved.d <= 1e-13 && there;
             // What is left is a hundredth of the last change.
-            let enough = self.effort == Effort::Search
+            let enough = self.effort != Effort::Full
                 && there
                 && change.max(moved.v) < 1e-10
                 && slope_change.max(moved.d) < 1e-8;

@@ -172,7 +172,7 @@ impl WedgeCurve {
     pub(super) fn truncation_of(&self, arcs: &[Arc<ArcTable>]) -> f64 {
         let skip = |k: usize| match (k, self.effort) {
             (0, Effort::Full) => 2,
-            (0, Effort::Search) => lowest(self.exponent),
+            (0, Effort::Search | Effort::Sketch) => lowest(self.exponent),
             _ => 0,
         };
         arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k))).fold(0.0, f64::max)
@@ -293,7 +293,7 @@ impl WedgeCurve {
             if fa > 0.0 && k == 0 {
                 continue;
             }
-            if self.effort == Effort::Search
+            if self.effort != Effort::Full
                 && let Some(found) = self.newton(k, torque_nm, [a, b], [fa, fb])
             {
                 return Some((k, found));

@@ -222,7 +222,7 @@ impl ArcBuilder<'_> {
         let alpha_until = end.alpha.v;
         // Next to where they are a panel holds all but the second order of what they move by.
         let edges = like.map_or_else(|| self.edges(n_from, n_until), |like| like.edges.clone());
-        let (lanes, windup) = if self.effort == Effort::Search {
+        let (lanes, windup) = if self.effort != Effort::Full {
             self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until)?
         } else if first {
             let (lanes, layout, s_edges) = self.first(n_until, &edges)?;
