@@ -8,6 +8,7 @@
 //! distances at A and B. T_bi acts on the inner race in its positive sense, -T_be on the outer race.
 //! v is race minus sprag surface; in slip T_bi = -sgn(v_A) mu N_bi and T_be = +sgn(v_B) mu N_be.
 
+mod beat;
 mod cage;
 mod cage_swing;
 mod carried;

@@ -35,10 +35,19 @@ impl RollingTrack {
         Self { arc, legs, peaks, largest }
     }
 
-    /// Figures that a demand is read from: |T|/N of the contact that asks for more, the ends of N_bi.
-    fn read(&self, model: &Model) -> [usize; 3] {
+    /// Figures that a demand is read from: |T|/N of the contact that asks for more, the ends of N_bi. In tension |T|/N says nothing.
+    fn read(&self, model: &Model) -> &'static [usize] {
         let outer_asks = !model.outer_holds && self.peaks.tan_outer > self.peaks.tan_inner;
-        [usize::from(outer_asks), 2, 3]
+        match outer_asks {
+            _ if self.pulls() => &[2, 3],
+            true => &[1, 2, 3],
+            false => &[0, 2, 3],
+        }
+    }
+
+    /// Whether rolling needs tension.
+    fn pulls(&self) -> bool {
+        self.peaks.normal_min_n <= 0.0
     }
 
     /// Whether leg `k` begins or ends where the motion has a corner, its figures a jump, or an end.
@@ -52,7 +61,7 @@ impl RollingTrack {
     /// The peaks of `model`, whose track this is, as [`Self::retraced`] reads those of a neighbour: `state` is its start.
     pub(super) fn read_again(&self, model: &Model, state: &State) -> Option<Peaks> {
         let mut peaks = self.peaks;
-        for i in self.read(model) {
+        for &i in self.read(model) {
             let Largest { leg, from, .. } = self.largest[i];
             let mut rolls = Rolls::at(model, &from, state);
             self.follow(
@@ -68,20 +77,20 @@ impl RollingTrack {
     }
 
     /// The peaks of `model`, a neighbour of the one whose track this is, from its start `state`; [`Peaks::normal_outer_max_n`] and the
-    /// friction at the contact that asks for less stay as they are. `None` where it goes another way: begins on another arc, or
-    /// does not come to a junction that the run came to.
+    /// friction at the contact that asks for less stay as they are. `None` where it goes another way: begins on another arc, does not
+    /// come to a junction that the run came to, needs tension where the run needs none or none where it does.
     pub(super) fn retraced(&self, model: &Model, state: &State, place: Place) -> Option<Peaks> {
         if place != Place::Arc(self.arc) {
             return None;
         }
         let read = self.read(model);
-        let last = read.into_iter().map(|i| self.largest[i].leg).max()?;
+        let last = read.iter().map(|i| self.largest[*i].leg).max()?;
         let (mut rolls, y) = Rolls::new(model, self.arc, state);
         let (mut t, mut step) = (0.0, Step::new());
         let mut now = rolls.sight(t, &y);
         let mut peaks = self.peaks;
         for (k, leg) in self.legs[..=last].iter().enumerate() {
-            let passage = self.follow(k, &mut rolls, (t, now), &mut step, &read, &mut peaks)?;
+            let passage = self.follow(k, &mut rolls, (t, now), &mut step, read, &mut peaks)?;
             if let Some((length, mut y)) = passage {
                 t += length;
                 if !rolls.pass(&mut y) {
@@ -98,7 +107,7 @@ impl RollingTrack {
                 }
             }
         }
-        Some(peaks)
+        (self.pulls() == (peaks.normal_min_n <= 0.0)).then_some(peaks)
     }
 
     /// Leg `k` from `now` at `t` (s) on; those of the figures `read` that were largest on it go to `peaks`. Where it ends at a junction,

@@ -18,9 +18,11 @@
 //! F = C(w) - n_s kappa K_r (alpha_max - alpha): the clutch's torque at Omega less what the spring gives. What rolling asks of the
 //! contacts is read off the races, n_s T_bi OA = I_bi (e'' - w'') - C_rl w' - C_bi.
 //!
-//! This is the run of a search. It says nothing where it would have to leave the closed contact; then [`super::rolling()`] is
-//! asked, which is also what it is tested against.
+//! Below first contact the curve goes on in tension, as in [`super::rolling()`]. This is the run of a search. It says nothing where the
+//! motion leaves the curve or asks for more than these equations hold; then [`super::rolling()`] is asked, which is also what it is
+//! tested against.
 
+use super::beat::Beat;
 use super::crossing::scaled;
 use super::drive::Ramp;
 use super::events::FIGURES;
@@ -117,56 +119,6 @@ pub(super) struct Rolls<'a> {
     inner: Ramp,
 }
 
-/// amplitude sin(omega t) near a time at which it is known: by the addition theorem and Taylor's series, at a quarter of what
-/// a sine costs.
-#[derive(Debug, Clone, Copy)]
-struct Beat {
-    from_s: f64,
-    omega: f64,
-    /// Amplitude times sine and cosine at `from_s`.
-    sine: f64,
-    cosine: f64,
-}
-
-impl Beat {
-    /// Angle from `from_s` up to which the series are good to 1e-15, rad: 0.5^14/14!.
-    const REACH: f64 = 0.5;
-
-    fn new(omega: f64, amplitude: f64, t: f64) -> Self {
-        let (sine, cosine) = (omega * t).sin_cos();
-        Self { from_s: t, omega, sine: amplitude * sine, cosine: amplitude * cosine }
-    }
-
-    #[inline(always)]
-    fn at(&self, t: f64) -> f64 {
-        let x = self.omega * (t - self.from_s);
-        if x.abs() > Self::REACH {
-            let (sine, cosine) = x.sin_cos();
-            return self.sine * cosine + self.cosine * sine;
-        }
-        let q = x * x;
-        // Both side by side: sin x/x and cos x in powers of x^2.
-        let mut sum = SERIES[SERIES.len() - 1];
-        for row in SERIES[..SERIES.len() - 1].iter().rev() {
-            for lane in 0..2 {
-                sum[lane] = sum[lane] * q + row[lane];
-            }
-        }
-        self.sine * sum[1] + self.cosine * (sum[0] * x)
-    }
-}
-
-/// Coefficients of x^2k of sin x/x and cos x.
-const SERIES: [[f64; 2]; 7] = [
-    [1.0, 1.0],
-    [-1.0 / 6.0, -1.0 / 2.0],
-    [1.0 / 120.0, 1.0 / 24.0],
-    [-1.0 / 5_040.0, -1.0 / 720.0],
-    [1.0 / 362_880.0, 1.0 / 40_320.0],
-    [-1.0 / 39_916_800.0, -1.0 / 3_628_800.0],
-    [1.0 / 6_227_020_800.0, 1.0 / 479_001_600.0],
-];
-
 impl<'a> Rolls<'a> {
     /// On arc `arc`, with the start that `state` is.
     pub(super) fn new(model: &'a Model, arc: usize, state: &State) -> (Self, Pair) {
@@ -183,7 +135,8 @@ impl<'a> Rolls<'a> {
 
     /// Where `outset` is.
     pub(super) fn at(model: &'a Model, outset: &Outset, state: &State) -> Self {
-        let (mut rolls, _) = Self::new(model, outset.arc, state);
+        let (mut rolls, _) = Self::new(model, 0, state);
+        rolls.table.enter(outset.arc);
         rolls.inner = outset.inner;
         rolls
     }
@@ -297,17 +250,23 @@ impl RightHandSide<4> for Rolls<'_> {
     }
 }
 
-/// Shortest step, as a part of the longest, before the general run, which has implicit steps as well, is the better one.
-const SHORTEST: f64 = 1e-3;
+/// Shortest step, as a part of the longest, before the general run, which has implicit steps as well, is the better one; and where
+/// motions pass first contact.
+const SHORTEST: [f64; 2] = [1e-3, 1e-6];
 /// A step whose right-hand side had no value, as a part of itself the next time.
 const SHRUNK: f64 = 0.1;
 /// How far beyond a junction that lies ahead a step goes, in parts of the way there and of the longest step: what lies
 /// beyond is lost.
 const BEYOND: [f64; 2] = [1.05, 0.01];
+/// Steps about first contact, where forces are not smooth: as parts of the time until then and since then, and their least as a part
+/// of the longest.
+const BEFORE: f64 = 0.67;
+const AFTER: f64 = 2.0;
+const NEAREST: f64 = 0.03;
 /// Weighted error up to which a step is taken.
 const MOST: f64 = 1.5;
 
-/// Run `model` from `state` on arc `place` with both contacts rolling. `None` where that leaves the closed contact or asks for
+/// Run `model` from `state` on arc `place` with both contacts rolling. `None` where that leaves the curve or asks for
 /// more than these equations hold: a course of speed, a drivetrain, damped contacts, a contact B that holds whatever it takes.
 pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSettings) -> Option<Stuck> {
     let Place::Arc(arc) = place else { return None };
@@ -335,6 +294,8 @@ pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSe
 /// False where the run leaves what these equations hold.
 fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut Stuck) -> bool {
     let tolerance = tolerance(settings);
+    // When w last passed first contact, once it does.
+    let mut crossed_s: Option<f64> = None;
     let longest = settings.longest_step_s;
     let (mut t, mut h) = (0.0, longest);
     let mut step = Step::new();
@@ -352,16 +313,24 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
             break;
         }
         settings.follow.tell(t);
-        if run.counters.steps + run.counters.rejections >= settings.most_steps || rolls.table.is_left(y[0]) {
+        if run.counters.steps + run.counters.rejections >= settings.most_steps {
             return false;
         }
         let knot_s = rolls.next_knot_s(t);
         let rest = settings.duration_s.min(knot_s) - t;
         let ahead = rolls.table.junction_ahead_s(&y, now.rates[0]);
-        let trial = h.min(longest).min(rest).min(BEYOND[0] * ahead + BEYOND[1] * longest);
+        let mut trial = h.min(longest).min(rest).min(BEYOND[0] * ahead + BEYOND[1] * longest);
+        if let Some(crossed_s) = crossed_s {
+            let least = NEAREST * longest;
+            trial = trial.min((AFTER * (t - crossed_s)).max(least));
+            let ahead = rolls.table.first_contact_ahead_s(&y, now.rates[0]);
+            if ahead > least {
+                trial = trial.min((BEFORE * ahead).max(least));
+            }
+        }
         let slope = rolls.set_out(now);
         let taken = step.take(rolls, t, &y, &slope, trial, &tolerance, MOST, &mut run.counters);
-        if trial < SHORTEST * longest.min(rest) {
+        if trial < SHORTEST[usize::from(crossed_s.is_some())] * longest.min(rest) {
             return false;
         }
         // A step of many swings may leave what has values.
@@ -377,9 +346,20 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
             h = step.next_h().min(0.9 * trial);
             continue;
         }
-        run.counters.steps += 1;
         let mut dense = None;
         let Some(end) = first_passage(rolls, &step, &mut dense, &mut run.counters) else { return false };
+        if let (Some(theta), Some(d)) = (end, &dense)
+            && rolls.table.is_first_contact(d.after(theta * trial)[0])
+        {
+            // The first step that came there once more, by steps as later ones are.
+            if crossed_s.is_none() {
+                crossed_s = Some(f64::NEG_INFINITY);
+                run.counters.rejections += 1;
+                continue;
+            }
+            crossed_s = Some(t + theta * trial);
+        }
+        run.counters.steps += 1;
         let until_s = if trial == rest { settings.duration_s.min(knot_s) } else { t + trial };
         let breaks = end.is_none() && rolls.is_knot(until_s);
         run.legs.push(Leg { from_s: t, length_s: trial, until_s, passes: end.is_some(), breaks });

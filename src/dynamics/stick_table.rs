@@ -2,10 +2,13 @@
 //!
 //! Later arcs are cut into [`EQUAL`] equal pieces. On the first N ~ w^(10/9) and rho ~ w^(1/9) are singular at w = 0: there pieces
 //! are eighths of an octave of w over its end, so that the singularity lies 17 to 31 of their half lengths away and degree 6
-//! leaves out 1e-11.
+//! leaves out 1e-11. Below the last octave one piece reaches to w = 0, where forces are 1e-4 of those at the end of the arc and it
+//! leaves out parts in a thousand of them. The tension below first contact ([`WedgeCurve::mirrored`]) is cut like the first arc.
 
 use super::model::Model;
 use crate::numeric::pieces::Basis;
+#[cfg(doc)]
+use crate::wedge::WedgeCurve;
 use crate::wedge::WedgePoint;
 use std::sync::LazyLock;
 
@@ -17,7 +20,7 @@ const POINTS: usize = DEGREE + 1;
 const GENTLE: usize = 3;
 /// Pieces of a later arc.
 const EQUAL: usize = 24;
-/// Octaves of the first arc that are tabulated; a run that comes nearer to first contact is left to the general one.
+/// Octaves of the first arc.
 const OCTAVES: usize = 12;
 /// log2 of the pieces of an octave.
 const CUTS: u32 = 3;
@@ -79,7 +82,7 @@ pub(super) struct Table<'a> {
     model: &'a Model,
     /// Every piece made, in the order in which runs came by.
     made: Vec<Piece>,
-    /// Which of them is piece i of arc k: `places[k][i]`, or [`NONE`].
+    /// Which of them is piece i of arc k: `places[k][i]`, or [`NONE`]; tension comes after the last arc.
     places: Vec<Vec<u32>>,
     arc: usize,
     /// Ends of the present arc.
@@ -87,40 +90,72 @@ pub(super) struct Table<'a> {
     until: f64,
     /// One over the way between them, 1/rad.
     per_length: f64,
+    /// Whether that is the first arc or the tension below it.
+    about_first_contact: bool,
 }
 
 impl<'a> Table<'a> {
     /// On arc `arc` of the curve of `model`.
     pub(super) fn new(model: &'a Model, arc: usize) -> Self {
-        let pieces = |k: usize| if k == 0 { OCTAVES << CUTS } else { EQUAL };
-        let places = (0..model.curve.arc_count()).map(|k| vec![NONE; pieces(k)]).collect();
-        let mut table = Self { model, made: Vec::new(), places, arc, from: 0.0, until: 0.0, per_length: 0.0 };
+        let arcs = model.curve.arc_count();
+        let pieces = |k: usize| if k == 0 || k == arcs { (OCTAVES << CUTS) + 1 } else { EQUAL };
+        let mut table = Self {
+            model,
+            made: Vec::new(),
+            places: (0..=arcs).map(|k| vec![NONE; pieces(k)]).collect(),
+            arc,
+            from: 0.0,
+            until: 0.0,
+            per_length: 0.0,
+            about_first_contact: false,
+        };
         table.enter(arc);
         table
     }
 
-    /// The present arc.
+    fn tension(&self) -> usize {
+        self.places.len() - 1
+    }
+
+    /// The present arc; their number in tension.
     pub(super) fn arc(&self) -> usize {
         self.arc
     }
 
-    fn enter(&mut self, arc: usize) {
+    /// On to arc `arc`, as [`Self::arc`] counts.
+    pub(super) fn enter(&mut self, arc: usize) {
         let curve = &self.model.curve;
         let until = |k: usize| curve.in_arc(k, curve.arc_end_rad(k)).windup;
         self.arc = arc;
-        self.from = if arc == 0 { 0.0 } else { until(arc - 1) };
-        self.until = until(arc);
+        let tension = arc == self.tension();
+        self.from = match arc {
+            0 => 0.0,
+            _ if tension => -until(0),
+            _ => until(arc - 1),
+        };
+        self.until = if tension { 0.0 } else { until(arc) };
         self.per_length = 1.0 / (self.until - self.from);
+        self.about_first_contact = arc == 0 || tension;
     }
 
     /// Over the upper or lower end of the present arc; false where there is nothing.
     pub(super) fn pass(&mut self, up: bool) -> bool {
-        let next = if up { self.arc + 1 } else { self.arc.wrapping_sub(1) };
-        let there = next < self.places.len();
-        if there {
+        let (arc, tension) = (self.arc, self.tension());
+        let next = match up {
+            true if arc == tension => Some(0),
+            true => Some(arc + 1).filter(|next| *next < tension),
+            false if arc == tension => None,
+            false => Some(arc.checked_sub(1).unwrap_or(tension)),
+        };
+        if let Some(next) = next {
             self.enter(next);
         }
-        there
+        next.is_some()
+    }
+
+    /// Whether the end of the present arc that is next to `w` (rad) is first contact.
+    pub(super) fn is_first_contact(&self, w: f64) -> bool {
+        self.about_first_contact && w.abs() < 0.5 * (self.until - self.from)
     }
 
     /// Windup where the present arc begins and ends, rad.
@@ -128,26 +163,15 @@ impl<'a> Table<'a> {
         [self.from, self.until]
     }
 
-    /// Whether w (rad) lies too near to first contact.
-    pub(super) fn is_left(&self, w: f64) -> bool {
-        self.arc == 0 && w < self.until / f64::from(1 << OCTAVES)
-    }
-
     /// When w reaches an end of its arc as its rate and acceleration `rate` (rad/s^2) have it, s.
     pub(super) fn junction_ahead_s(&self, y: &[f64; 4], rate: f64) -> f64 {
-        let [w, _, u, _] = *y;
-        let when = |gap: f64| {
-            // gap = u t + rate t^2/2, first root beyond 0.
-            let inside = u * u + 2.0 * rate * gap;
-            if inside < 0.0 {
-                return f64::INFINITY;
-            }
-            let part = u + inside.sqrt().copysign(u);
-            let both = [2.0 * gap / part, -part / rate];
-            both.into_iter().filter(|t| *t > 1e-9).fold(f64::INFINITY, f64::min)
-        };
-        let lower = if self.arc == 0 { f64::INFINITY } else { when(self.from - w) };
-        lower.min(when(self.until - w))
+        let when = |end: f64| when(end - y[0], y[2], rate);
+        when(self.from).min(when(self.until))
+    }
+
+    /// When w reaches first contact as they have it, s.
+    pub(super) fn first_contact_ahead_s(&self, y: &[f64; 4], rate: f64) -> f64 {
+        if self.about_first_contact { when(-y[0], y[2], rate) } else { f64::INFINITY }
     }
 
     #[inline(always)]
@@ -155,29 +179,36 @@ impl<'a> Table<'a> {
         self.piece(w).motion(w)
     }
 
-    /// The piece of the present arc that holds `w`; the first and the last go on beyond its ends.
+    /// The piece of the present arc that holds `w`; the first and the last go on beyond its ends, but for first contact, beyond
+    /// which lies tension.
     #[inline(always)]
     pub(super) fn piece(&mut self, w: f64) -> &Piece {
-        let share = (w - self.from) * self.per_length;
-        let index = if self.arc == 0 {
+        let (arc, index) = if self.about_first_contact {
             // Exponent and leading bits of the mantissa count the pieces.
-            let place = (share.max(0.0).to_bits() >> (52 - CUTS)) as i64;
-            (place - LOWEST as i64).clamp(0, ((OCTAVES as i64) << CUTS) - 1) as usize
+            let place = ((w * self.per_length).abs().to_bits() >> (52 - CUTS)) as i64;
+            let index = (place - LOWEST as i64 + 1).clamp(0, (OCTAVES as i64) << CUTS) as usize;
+            (if w < 0.0 { self.tension() } else { 0 }, index)
         } else {
+            let share = (w - self.from) * self.per_length;
             // No number and negative ones become 0.
-            ((share * EQUAL as f64) as i32).clamp(0, EQUAL as i32 - 1) as usize
+            (self.arc, ((share * EQUAL as f64) as i32).clamp(0, EQUAL as i32 - 1) as usize)
         };
-        let place = self.places[self.arc][index];
-        let place = if place == NONE { self.make(index) } else { place };
+        let place = self.places[arc][index];
+        let place = if place == NONE { self.make(arc, index) } else { place };
         &self.made[place as usize]
     }
 
     #[cold]
     #[inline(never)]
-    fn make(&mut self, index: usize) -> u32 {
+    fn make(&mut self, arc: usize, index: usize) -> u32 {
         let length = self.until - self.from;
-        let [from, until] = if self.arc == 0 {
-            [index, index + 1].map(|i| length * f64::from_bits((LOWEST + i as u64) << (52 - CUTS)))
+        let tension = arc == self.tension();
+        let [from, until] = if self.about_first_contact {
+            let end = |i: usize| match i.checked_sub(1) {
+                Some(i) => length * f64::from_bits((LOWEST + i as u64) << (52 - CUTS)),
+                None => 0.0,
+            };
+            if tension { [-end(index + 1), -end(index)] } else { [end(index), end(index + 1)] }
         } else {
             [index, index + 1].map(|i| self.from + length * i as f64 / EQUAL as f64)
         };
@@ -186,11 +217,16 @@ impl<'a> Table<'a> {
         let mut lanes = [[0.0; LANES]; POINTS];
         // Newton along the nodes: dW = (rho_i + rho_e) d alpha.
         let curve = &self.model.curve;
-        let alpha_from =
-            if self.arc == 0 { curve.first_contact_rad() } else { curve.arc_end_rad(self.arc - 1) };
-        let alpha_until = curve.arc_end_rad(self.arc);
-        let mut alpha = alpha_from + (alpha_until - alpha_from) * (middle - self.from) / length;
-        let mut p = curve.in_arc(self.arc, alpha);
+        let at = |alpha: f64| if tension { curve.mirrored(alpha) } else { curve.in_arc(arc, alpha) };
+        let first_rad = curve.first_contact_rad();
+        let [alpha_from, alpha_until] = match arc {
+            _ if tension => [first_rad, 2.0 * first_rad - curve.arc_end_rad(0)],
+            0 => [first_rad, curve.arc_end_rad(0)],
+            _ => [curve.arc_end_rad(arc - 1), curve.arc_end_rad(arc)],
+        };
+        let gone = if self.about_first_contact { middle.abs() } else { middle - self.from };
+        let mut alpha = alpha_from + (alpha_until - alpha_from) * gone / length;
+        let mut p = at(alpha);
         for (j, node) in basis.nodes.iter().enumerate() {
             let w = middle + node / scale;
             for _ in 0..20 {
@@ -199,7 +235,7 @@ impl<'a> Table<'a> {
                 // To the second order: rho' bends the way there.
                 let step = straight - 0.5 * (p.rho_i_slope + p.rho_e_slope) / rho * straight * straight;
                 alpha += step;
-                p = curve.in_arc(self.arc, alpha);
+                p = at(alpha);
                 if step.abs() < 1e-5 * (alpha - alpha_from).abs() {
                     break;
                 }
@@ -229,7 +265,7 @@ impl<'a> Table<'a> {
             masses,
             arms,
         });
-        self.places[self.arc][index] = place;
+        self.places[arc][index] = place;
         place
     }
 }
@@ -251,6 +287,17 @@ fn gentle(lanes: &[[f64; LANES]; POINTS]) -> [[f64; LANES - 3]; GENTLE + 1] {
     let [c0, c1, c2, c3] = series;
     let of = |f: &dyn Fn(usize) -> f64| std::array::from_fn(f);
     [of(&|i| c0[i] - c2[i]), of(&|i| c1[i] - 3.0 * c3[i]), of(&|i| 2.0 * c2[i]), of(&|i| 4.0 * c3[i])]
+}
+
+/// When gap = u t + rate t^2/2, first root beyond 0, s.
+fn when(gap: f64, u: f64, rate: f64) -> f64 {
+    let inside = u * u + 2.0 * rate * gap;
+    if inside < 0.0 {
+        return f64::INFINITY;
+    }
+    let part = u + inside.sqrt().copysign(u);
+    let both = [2.0 * gap / part, -part / rate];
+    both.into_iter().filter(|t| *t > 1e-9).fold(f64::INFINITY, f64::min)
 }
 
 #[inline(always)]

@@ -114,7 +114,8 @@ fn quick_tolerance(prepared: &Prepared, settings: &Settings) -> f64 {
 }
 
 /// As [`demand`], for a search: two equations instead of ten where contact is kept. What it differs by from
-/// [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`); where next to nothing damps the swing, below four of them.
+/// [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`); where next to nothing damps the swing, below four of them,
+/// and below five of a load where rolling needs tension.
 /// It ends before its scene once no more can come ([`crate::dynamics`]'s `settled`).
 pub fn demand_quickly(prepared: &Prepared, settings: &Settings) -> RollingDemand {
     let single = Fineness::single(0.1 * settings.tolerance);
@@ -160,7 +161,7 @@ fn at_rest(prepared: &Prepared) -> RollingDemand {
 }
 
 /// The same with what it integrated, for [`demand_retraced`]; `None` where it integrated nothing, or not what rolls from start to
-/// end: an engagement, a motion that unloads its contact so that friction is bisected, one that meets the end of the curve.
+/// end: an engagement, one that meets the end of the curve; and where friction is bisected, unless none suffices.
 pub fn demand_tracked(prepared: &Prepared, settings: &Settings) -> (RollingDemand, Option<RollingTrack>) {
     let by_peaks = || {
         if prepared.duration_s == 0.0 || prepared.overrun.is_some() {
@@ -169,9 +170,15 @@ pub fn demand_tracked(prepared: &Prepared, settings: &Settings) -> (RollingDeman
         let single = Fineness::single(0.1 * settings.tolerance);
         let s = run_settings(prepared, &unaudited(settings), single, 0, STEPS_PER_PERIOD_OF_DEMAND);
         let (model, state, place) = (&prepared.model, prepared.state, prepared.mode.place);
-        let (found, track) = rolling_tracked(model, state, place, &s, quick_tolerance(prepared, settings))?;
-        let demand = of_peaks(prepared, &found);
-        (demand.finished && demand.required_friction.is_some()).then_some((demand, Some(track)))
+        let quick = quick_tolerance(prepared, settings);
+        let (found, track) = rolling_tracked(model, state, place, &s, quick)?;
+        let mut demand = of_peaks(prepared, &found);
+        if demand.finished && found.required_friction.is_none() {
+            let fineness = Fineness { quick: Some(quick), ..single };
+            bisect(&mut demand, prepared, settings, fineness, None, 0.0);
+        }
+        let has_slopes = !demand.by_bisection || demand.required_friction.is_none();
+        demand.finished.then(|| (demand, Some(track).filter(|_| has_slopes)))
     };
     by_peaks().unwrap_or_else(|| (demand_quickly(prepared, settings), None))
 }
@@ -260,17 +267,29 @@ pub(super) fn roll(
     demand.never_engages = never_engages;
     demand.finished &= !never_engages;
     demand.rhs_evaluations += before;
-    demand.by_bisection = demand.finished && r.required_friction.is_none();
-    let mut required = demand.required_friction.filter(|_| demand.finished);
-    if demand.by_bisection {
-        let found = bisected(prepared, settings, fineness, near, left_out_s);
-        required = found.required;
-        demand.rhs_evaluations += found.rhs_evaluations;
-        demand.interrupted |= found.interrupted;
+    if !demand.finished {
+        (demand.required_friction, demand.slip_margin) = (None, None);
+    } else if r.required_friction.is_none() {
+        bisect(&mut demand, prepared, settings, fineness, near, left_out_s);
     }
-    demand.required_friction = required;
-    demand.slip_margin = slip_margin(&prepared.model, required);
     (r.run, demand)
+}
+
+/// Friction of a `demand` whose rolling run says nothing of it.
+fn bisect(
+    demand: &mut RollingDemand,
+    prepared: &Prepared,
+    settings: &Settings,
+    fineness: Fineness,
+    near: Option<f64>,
+    left_out_s: f64,
+) {
+    let found = bisected(prepared, settings, fineness, near, left_out_s);
+    demand.by_bisection = true;
+    demand.required_friction = found.required;
+    demand.slip_margin = slip_margin(&prepared.model, found.required);
+    demand.rhs_evaluations += found.rhs_evaluations;
+    demand.interrupted |= found.interrupted;
 }
 
 /// What a scene that begins in overrun need not stand by where friction is bisected, s: from when its swings repeat, by `jumps`, until

@@ -136,7 +136,7 @@ fn a_drivetrain_counts_in_a_quick_demand() {
 
 #[test]
 fn the_quick_demand_is_the_demand() {
-    let (mut worst, mut scenes) = (0.0_f64, 0);
+    let (mut worst, mut scenes) = (0.0_f64, [0, 0]);
     for design in designs() {
         for scene in &design.scenarios {
             let Ok(p) = prepare(scene) else { continue };
@@ -148,23 +148,26 @@ fn the_quick_demand_is_the_demand() {
                 (quick.finished, quick.never_engages, quick.by_bisection, quick.required_friction.is_some()),
                 "{name}"
             );
+            // What is bisected is as good as its bracket is narrow; the rolling motion, with its tension, is held beside it.
+            let required =
+                exact.required_friction.zip(quick.required_friction).filter(|_| !exact.by_bisection);
             let off = [
-                exact.required_friction.zip(quick.required_friction).map_or(0.0, |(a, b)| b / a - 1.0),
+                required.map_or(0.0, |(a, b)| b / a - 1.0),
                 quick.contact_margin - exact.contact_margin,
                 quick.normal_max_n[0] / exact.normal_max_n[0].max(1e-30) - 1.0,
                 quick.normal_max_n[1] / exact.normal_max_n[1].max(1e-30) - 1.0,
             ];
             let off = off.into_iter().map(f64::abs).fold(0.0, f64::max);
             println!("{name}: {off:.1e}, {} right-hand sides", quick.rhs_evaluations);
-            if !exact.by_bisection && !exact.never_engages {
+            if !exact.never_engages {
                 assert!(off < 1e-6, "{name}: {off:e}");
                 worst = worst.max(off);
-                scenes += 1;
+                scenes[usize::from(exact.by_bisection)] += 1;
             }
         }
     }
-    println!("{scenes} scenes, {worst:.1e} off at most");
-    assert!(scenes > 15, "{scenes}");
+    println!("{scenes:?} scenes by peaks and bisected, {worst:.1e} off at most");
+    assert!(scenes[0] > 15 && scenes[1] > 5, "{scenes:?}");
 }
 
 /// The sooner a motion dies away, the sooner its run ends; where it beats or grows for long it is run on. Errors of steps that damping

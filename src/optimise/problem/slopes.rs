@@ -178,7 +178,7 @@ impl Evaluate for ClutchProblem {
 
     /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point, to 1e-12, what a scene
     /// demands its run taken again by the neighbour ([`demand_retraced`]). Without a change: demands that are bisected, because the
-    /// motion unloads the contact, and scenes that do more than roll; and everything where lengths go with a variable in steps.
+    /// motion unloads the contact, and found, and scenes that do more than roll; and everything where lengths go with a variable in steps.
     fn changes(&self, x: &[f64], beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
         let in_steps = |(name, link): &(String, Link)| link.step.is_some() && self.variables.contains(name);
         if !self.quick || self.links.iter().any(in_steps) {
