@@ -49,6 +49,13 @@ impl TrackWave {
     pub fn larger_m(&self, azimuth_rad: f64) -> f64 {
         self.amplitude_m * (self.lobes as f64 * (azimuth_rad - self.azimuth_rad)).cos()
     }
+
+    /// The same, and its first and second derivative by the azimuth.
+    pub fn larger_with_slopes_m(&self, azimuth_rad: f64) -> [f64; 3] {
+        let lobes = self.lobes as f64;
+        let (sin, cos) = (lobes * (azimuth_rad - self.azimuth_rad)).sin_cos();
+        [cos, -lobes * sin, -lobes * lobes * cos].map(|part| self.amplitude_m * part)
+    }
 }
 
 /// How sprags stand when torque begins.

@@ -4,11 +4,11 @@
 //! Equations: those of [`crate::dynamics::run_many`].
 //!
 //! Every sprag has its own curve (its size, and its tracks where they are out of round as made), its own friction (static and kinetic in one ratio) and its own lag (its
-//! gap, or its size where a cage holds all), drawn and given as for statics. Where the axes of the races do not meet,
+//! gap, or its size where a cage holds all), drawn and given as for statics. An inner track out of round turns with its race. Where the axes of the races do not meet,
 //! or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the races bend
 //! under sprags unlike one another ([`Rings`]), without inertia.
 
-use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start};
+use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start, TrackWave};
 use crate::dynamics::{
     Axes, AxisBearing, ManyRun, ManyStart, OffCentre, Rings, RunSettings, SpragApproach, SpragGroup,
     StaysWith, Stop, run_many, settled_off_centre, settled_together,
@@ -16,7 +16,7 @@ use crate::dynamics::{
 use crate::friction::Stribeck;
 use crate::scenario::{NoScenario, Prepared, Settings, prepare};
 use crate::sharing::{Asked, Idle, OneSprag, Unlike};
-use crate::wedge::{AxisTurns, NoCurve, OverEnd, WedgeCurve};
+use crate::wedge::{AxisTurns, NoCurve, OverEnd, SpragDeviation, WedgeCurve};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -98,8 +98,6 @@ pub struct EachSprag {
     pub off_centre: [f64; 2],
     /// That torque, N m.
     pub largest_nm: f64,
-    /// Windup of sprags alike under it, rad; 0 beyond the curve.
-    pub windup_rad: f64,
     /// Races that bend; `None`: nothing in the scene feels that, there are too many sprags, or the law of contact is too stiff.
     pub bends: Option<BendingRaces>,
 }
@@ -133,7 +131,7 @@ pub struct Many {
     pub idle: Vec<Option<Idle>>,
     /// The sprags.
     pub sprags: Vec<OneSprag>,
-    /// Axes that do not meet or give way.
+    /// Axes that do not meet or give way, or an inner track between them that is not round.
     pub axes: Option<Axes>,
     /// Races that bend.
     pub rings: Option<Rings>,
@@ -215,7 +213,9 @@ impl Many {
         let law = Stribeck::of(&clutch.friction);
         let of = |(g, &i): (usize, &usize)| {
             let sprag = &unlike.sprags[i];
-            let own = curve.of_sprag(unlike.as_made(i)).map_err(|why| NoEachSprag::Curve(i, why))?;
+            let own = curve
+                .of_sprag(standing_made(&unlike, i, &sharing.tracks))
+                .map_err(|why| NoEachSprag::Curve(i, why))?;
             let kinetic = law.kinetic * (sprag.friction / law.static_);
             let friction = Stribeck { static_: sprag.friction, kinetic, ..law };
             let count = group.iter().filter(|of| **of == Some(g)).count();
@@ -225,8 +225,8 @@ impl Many {
         let built: Vec<_> = kinds.par_iter().enumerate().map(of).collect();
         let mut groups = built.into_iter().collect::<Result<Vec<_>, _>>()?;
         if let Some(axes) = &axes {
-            let reach_m = reach_m(axes, &unlike, scenario, &alike);
-            stand_off_centre(&mut groups, &unlike, &kinds, reach_m)?;
+            let reach_m = reach_m(axes, &unlike, scenario, &alike, &sharing.tracks);
+            stand_off_centre(&mut groups, &unlike, &kinds, reach_m, &sharing.tracks)?;
         }
         let rings = match bends {
             true => Some(rings(&groups, &unlike, &kinds, largest_nm(scenario, &alike.model.loads))?)
@@ -316,7 +316,10 @@ fn even_rad(unlike: &Unlike<'_>, i: usize) -> f64 {
 
 /// What sets sprag `i` and its tracks apart as made, equal where they are; a deviation of -0 is none.
 fn made_bits(unlike: &Unlike<'_>, i: usize) -> [u64; 3] {
-    let made = unlike.as_made(i);
+    bits(unlike.as_made(i))
+}
+
+fn bits(made: SpragDeviation) -> [u64; 3] {
     [made.size_m, made.inner_m, made.outer_m].map(|m| (m + 0.0).to_bits())
 }
 
@@ -376,7 +379,7 @@ fn one_for_each_made<T: Send + Sync>(
 /// Axes of `clutch` where its sprags can feel them: those that do not meet, or that give way under sprags unlike one another.
 fn axes(clutch: &Clutch, unlike: &Unlike<'_>, sharing: &Sharing, speed_rad_s: f64) -> Option<Axes> {
     let gives = unlike.stiffness_n_per_m.is_finite();
-    if unlike.offset_m == 0.0 && !(gives && uneven(unlike)) {
+    if unlike.offset_m == 0.0 && !(gives && uneven(unlike)) && sharing.tracks.iter().all(|wave| wave.outer) {
         return None;
     }
     let mass_kg = sharing.mass_kg.unwrap_or(clutch.masses_kg()[1]);
@@ -405,16 +408,29 @@ fn largest_nm(scenario: &Scenario, loads: &crate::dynamics::Loads) -> f64 {
 }
 
 /// How far off the axes are looked at, m: as far as at rest under the largest torque they shift, and what a swing adds.
-fn reach_m(axes: &Axes, unlike: &Unlike<'_>, scenario: &Scenario, alike: &Prepared) -> f64 {
+fn reach_m(
+    axes: &Axes,
+    unlike: &Unlike<'_>,
+    scenario: &Scenario,
+    alike: &Prepared,
+    tracks: &[TrackWave],
+) -> f64 {
+    let lobes_m: f64 = tracks.iter().filter(|wave| !wave.outer).map(|wave| wave.amplitude_m).sum();
     if axes.bearing.is_none() {
-        return axes.offset_m.max(SHIFTS[1]);
+        return (axes.offset_m + lobes_m).max(SHIFTS[1]);
     }
     let largest_nm = largest_nm(scenario, &alike.model.loads);
     let shift = match unlike.unbent().carrying(Asked::Torque(largest_nm), 0.0) {
         Ok(shared) => shared.shift_m[0].hypot(shared.shift_m[1]),
         Err(_) => 0.0,
     };
-    axes.offset_m + (FURTHER * shift).max(SHIFTS[0] * axes.offset_m).max(SHIFTS[1])
+    axes.offset_m + lobes_m + (FURTHER * shift).max(SHIFTS[0] * axes.offset_m).max(SHIFTS[1])
+}
+
+/// What sets sprag `i` apart as made and stays with it: an inner track out of round turns on.
+fn standing_made(unlike: &Unlike<'_>, i: usize, tracks: &[TrackWave]) -> SpragDeviation {
+    let made = unlike.as_made(i);
+    if tracks.iter().all(|wave| wave.outer) { made } else { SpragDeviation { inner_m: 0.0, ..made } }
 }
 
 /// Put every group where it stands between axes that lie up to `reach_m` off; those made alike share a table.
@@ -423,14 +439,18 @@ fn stand_off_centre(
     unlike: &Unlike<'_>,
     kinds: &[usize],
     reach_m: f64,
+    tracks: &[TrackWave],
 ) -> Result<(), NoEachSprag> {
+    let inner_track: Arc<[TrackWave]> = tracks.iter().filter(|wave| !wave.outer).copied().collect();
     let table = |g: usize| {
         let of = AxisTurns::new(&groups[g].model.curve, reach_m);
         of.map(Arc::new).map_err(|why| NoEachSprag::Curve(kinds[g], why))
     };
-    let tables = one_for_each_made(groups.len(), |g| made_bits(unlike, kinds[g]), table)?;
+    let made = |g: usize| bits(standing_made(unlike, kinds[g], tracks));
+    let tables = one_for_each_made(groups.len(), made, table)?;
     for ((group, turns), kind) in groups.iter_mut().zip(tables).zip(kinds) {
-        group.off_centre = Some(OffCentre { azimuth_rad: unlike.sprags[*kind].azimuth_rad, turns });
+        let (azimuth_rad, inner_track) = (unlike.sprags[*kind].azimuth_rad, inner_track.clone());
+        group.off_centre = Some(OffCentre { azimuth_rad, turns, inner_track });
     }
     Ok(())
 }
@@ -503,6 +523,8 @@ pub fn each_sprag(
         scene_hz: scene_hz(&scenario.clutch, &many.alike, at_rest.as_ref(), largest_nm),
     });
     let Many { sprags, idle, group, axes, .. } = many;
+    // Held axes that meet are there for the inner track alone.
+    let axes = axes.filter(|axes| axes.offset_m > 0.0 || axes.bearing.is_some());
     Ok(EachSprag {
         sprags,
         idle,
@@ -516,10 +538,6 @@ pub fn each_sprag(
         axes,
         off_centre,
         largest_nm,
-        windup_rad: at_rest
-            .as_ref()
-            .and_then(|curve| curve.at_torque(largest_nm))
-            .map_or(0.0, |p| p.windup_rad),
         bends,
     })
 }

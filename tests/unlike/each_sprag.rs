@@ -193,8 +193,8 @@ fn a_torque_that_rises_slowly_is_shared_as_statics_shares_it() {
     assert!((doubled - 2.0).abs() < 0.1, "{beside:?}");
 }
 
-/// A load that settles between oval tracks: each sprag as statics has it, nearer the smaller the oval. As many lobes as sprags are a track of
-/// another radius for all of them, in a swing too.
+/// A load that settles between oval tracks: each sprag as statics has it, nearer the smaller the oval. As many lobes as sprags are an outer
+/// track of another radius for all of them, none an inner one, however far that turns, in a swing too.
 #[test]
 fn tracks_out_of_round_as_made_are_shared_as_statics_shares_them() {
     let wave = |outer: bool, lobes: usize, amplitude_m: f64| TrackWave {
@@ -219,16 +219,19 @@ fn tracks_out_of_round_as_made_are_shared_as_statics_shares_them() {
         assert_eq!((all.stop, all.inconsistent_choices), (Stop::Finished, 0));
         let last = all.samples.last().unwrap();
         let unbent = Unlike::new(&slow.clutch, &sharing, &curve, 0.0).unbent();
-        let shared = unbent.carrying(Asked::Torque(40.0), 0.0).unwrap();
+        // The inner track has turned on against the sprags.
+        let gone_rad = all.sprags.iter().map(|sprag| sprag[1]).sum::<f64>() / all.sprags.len() as f64;
+        let shared = unbent.carrying(Asked::Torque(40.0), all.races[0] - gone_rad).unwrap();
         let normal_n = |i: usize| last.normal_n[many.group[i].unwrap()];
         let off = |(i, load): (usize, &Bears)| (normal_n(i) / load.normal_inner_n - 1.0).abs();
         let off = shared.loads.iter().enumerate().map(off).fold(0.0, f64::max);
         let uneven = shared.shares().iter().fold(0.0, |m: f64, s| m.max((s - 1.0).abs()));
         println!("{amplitude_m:e}: beside `sharing` {off:.2e}, shares differ by {uneven:.2e}");
-        assert!(off < 1.5 * amplitude_m / 4.02e-3 && uneven > 20.0 * off, "{off:e} {uneven:e}");
+        assert!(off < 0.25 * amplitude_m / 4.02e-3 && uneven > 400.0 * off, "{off:e} {uneven:e}");
         beside.push(off);
     }
-    assert!((beside[1] / beside[0] - 2.0).abs() < 0.2, "{beside:?}");
+    // What is left is of first and second order.
+    assert!((2.0..4.0).contains(&(beside[1] / beside[0])), "{beside:?}");
 
     // One arc: junctions count from first contact, and would lie elsewhere on the sprag for another radius.
     let swing = scene("huang2017-single-arc", "low-10");
@@ -240,7 +243,8 @@ fn tracks_out_of_round_as_made_are_shared_as_statics_shares_them() {
     };
     let plain = peak(&swing, &Sharing::default());
     for outer in [false, true] {
-        let lobed = peak(&swing, &Sharing { tracks: vec![wave(outer, count, 1e-5)], ..Sharing::default() });
+        let lobes = if outer { count } else { 0 };
+        let lobed = peak(&swing, &Sharing { tracks: vec![wave(outer, lobes, 1e-5)], ..Sharing::default() });
         let mut other = swing.clone();
         let races = &mut other.clutch.races;
         *[&mut races.inner_radius_m, &mut races.outer_radius_m][usize::from(outer)] += 1e-5;

@@ -9,3 +9,4 @@ mod cost;
 mod each_sprag;
 mod off_centre;
 mod sharing;
+mod turning_track;

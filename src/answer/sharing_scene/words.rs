@@ -130,19 +130,18 @@ impl SharingSceneAnswer<'_> {
         )
     }
 
-    /// What the inner track, out of round as made, does to the gaps while it turns on against the sprags; `None`: it is round.
-    fn inner_track_turning(&self) -> Option<LeftOut> {
+    /// What an inner track that is not round as made does beside coming out; `None`: it is round.
+    fn inner_track_leans(&self) -> Option<LeftOut> {
         let waves = self.design.sharing.as_ref()?.tracks.iter().filter(|wave| !wave.outer);
         let steepest_m = waves.map(|wave| wave.lobes as f64 * wave.amplitude_m).reduce(f64::max)?;
-        let windup_rad = self.found.windup_rad;
+        let clutch = &self.design.clutch;
         Some(LeftOut::new(
-            "an inner track out of round that turns on against the sprags",
-            "it stands as when torque begins",
+            "the lean of an inner track out of round",
+            "it turns with its race and comes out under the sprags as it passes them; where it rises it is not taken to lean",
             &format!(
-                "by its windup under {}, {}, it moves a gap by {} at most, and by slip in proportion",
-                Unit::NewtonMetre.show(self.found.largest_nm, 4),
-                Unit::Degree.show(windup_rad, 2),
-                Unit::Micrometre.show(steepest_m * windup_rad, 2)
+                "at most {} of the friction that holds, {}, which counts where the sprags ask for most of that",
+                Unit::Percent.show(steepest_m / clutch.races.inner_radius_m / clutch.friction.static_, 2),
+                significant(clutch.friction.static_, 4)
             ),
         ))
     }
@@ -168,7 +167,7 @@ impl SharingSceneAnswer<'_> {
                 ),
             ));
         }
-        instead.extend(self.inner_track_turning());
+        instead.extend(self.inner_track_leans());
         one_by_one(self.design, instead)
     }
 

@@ -16,6 +16,11 @@
 //! Left out, with the body turned by d at one normal force (some 1e-3 rad a um): what that is to the sprag's own inertia, its spring and
 //! the angles in the radial equation.
 //!
+//! An inner track out of round as made turns with its race: a sprag at u sees it at the azimuth u - theta_bi of the race, where it comes
+//! out by w(u - theta_bi), as a round one does whose axis lies by w nearer. So d has w along the radius beside, d' w' (phi' - theta_bi'),
+//! and what follows from that by the same virtual work; nothing turns by itself, so no work is added. Left out, as in statics: that
+//! the track leans where it rises.
+//!
 //! The axis on bearings of stiffness k about o, m the mass that they hold (its centre where the bearings are), damped by c from the
 //! housing: m (s'' + 2 Omega J s' - Omega^2 s) + c (s' + Omega J s) + k s = F. Why the mass is kept: quasi-statically s = F/k needs
 //! constraint forces that follow from s itself, and is wrong by (f/f_0)^2, f_0 = sqrt(k/m)/2 pi; f_0 lies below the sprags' own
@@ -23,7 +28,7 @@
 
 use super::bending::pressed;
 use super::{EACH, HEAD, SpragGroup};
-use crate::clutch::Carrier;
+use crate::clutch::{Carrier, TrackWave};
 use crate::dynamics::State;
 use crate::dynamics::model::{Grip, Loose, Mode, Place};
 use crate::wedge::{AxisTurn, AxisTurns, WedgePoint};
@@ -82,6 +87,29 @@ pub struct OffCentre {
     pub azimuth_rad: f64,
     /// G of its curve.
     pub turns: Arc<AxisTurns>,
+    /// The inner track where it is not round as made, from sprag 0 on when both races stand at 0.
+    pub inner_track: Arc<[TrackWave]>,
+}
+
+impl OffCentre {
+    /// By how much the inner track comes out under the sprag that has gone on by `phi_rad`, its race by `race_rad`, m, and the derivatives
+    /// of that by the difference.
+    fn out_m(&self, phi_rad: f64, race_rad: f64) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for wave in self.inner_track.iter() {
+            let more = wave.larger_with_slopes_m(self.azimuth_rad + phi_rad - race_rad);
+            for (sum, more) in sum.iter_mut().zip(more) {
+                *sum += more;
+            }
+        }
+        sum
+    }
+
+    /// The place of an axis at `axis_m` as that sprag sees it with its track, m.
+    pub(super) fn seen_m(&self, axis_m: [f64; 2], phi_rad: f64, race_rad: f64) -> [f64; 2] {
+        let [x, y] = rotated(axis_m, -(self.azimuth_rad + phi_rad));
+        [x + self.out_m(phi_rad, race_rad)[0], y]
+    }
 }
 
 /// The curve of a sprag where the axes lie, and how they move what it rolls.
@@ -105,6 +133,8 @@ pub(super) struct SeenAxes {
     axis_m: [f64; 2],
     offset_m: [f64; 2],
     shift_m_s: [f64; 2],
+    /// First and second derivative of what the inner track comes out by phi - theta_bi, m.
+    out_m: [f64; 2],
     /// chi' by the rates of the races, and by itself, rad/s.
     turned_by: [f64; 3],
 }
@@ -220,7 +250,8 @@ impl SpragGroup {
         let axis_m = rotated([offset[0] + shift[0], offset[1] + shift[1]], back);
         // An open sprag is where it would touch.
         let alpha = if arc.is_some() { own[0] } else { self.model.curve.first_contact_rad() };
-        let mut turns = at.turns.at(arc.unwrap_or(0), alpha, axis_m);
+        let [out, out_slope, out_bend] = at.out_m(own[1], y[0]);
+        let mut turns = at.turns.at(arc.unwrap_or(0), alpha, [axis_m[0] + out, axis_m[1]]);
         if arc.is_none() {
             for g in &mut turns {
                 g.first[0] = 0.0;
@@ -247,6 +278,7 @@ impl SpragGroup {
             axis_m,
             offset_m,
             shift_m_s: rotated(rate, back),
+            out_m: [out_slope, out_bend],
             turned_by,
         };
         for (contact, sign) in [1.0, -1.0].into_iter().enumerate() {
@@ -254,9 +286,10 @@ impl SpragGroup {
             let turning = dot(slope, turned_offset);
             let push = rotated(slope, -back);
             let [by_inner, by_outer, alone] = turned_by.map(|by| by * turning);
-            seen.races[contact] += Vector4::new(by_inner, by_outer, push[0], push[1]) * sign;
+            let by_track = slope[0] * out_slope;
+            seen.races[contact] += Vector4::new(by_inner - by_track, by_outer, push[0], push[1]) * sign;
             seen.still[contact] = sign * alone;
-            seen.along[contact] += sign * dot(slope, turned_axis);
+            seen.along[contact] += sign * (dot(slope, turned_axis) - by_track);
         }
         Sight { point, axes: Some(seen) }
     }
@@ -298,11 +331,16 @@ impl SeenAxes {
         let [da, dp, ..] = *rates;
         let turning = self.turned_by[0] * races[0] + self.turned_by[1] * races[1] + self.turned_by[2];
         let [shift, offset, axis] = [quarter(self.shift_m_s), quarter(self.offset_m), quarter(self.axis_m)];
-        let moves: [f64; 2] = std::array::from_fn(|i| self.shift_m_s[i] + turning * offset[i] - dp * axis[i]);
+        let mut moves: [f64; 2] =
+            std::array::from_fn(|i| self.shift_m_s[i] + turning * offset[i] - dp * axis[i]);
         let moving = quarter(moves);
-        let bends: [f64; 2] = std::array::from_fn(|i| {
+        let mut bends: [f64; 2] = std::array::from_fn(|i| {
             -dp * shift[i] - turning * (turning - dp) * self.offset_m[i] - dp * moving[i]
         });
+        // Along the radius of the sprag, which turns with it.
+        let passes = dp - races[0];
+        moves[0] += self.out_m[0] * passes;
+        bends[0] += self.out_m[1] * passes * passes;
         [1.0, -1.0].map(|sign| {
             let g = &self.turns[usize::from(sign < 0.0)];
             let mut sum = g.first[1] * bends[0] + g.first[2] * bends[1];

@@ -72,7 +72,7 @@ pub struct SpragGroup {
     pub lag_rad: Option<f64>,
     /// How the way over their highest place ends, where their curve has it; `None`: the run ends where the curve does.
     pub over: Option<OverEnd>,
-    /// Where they stand between axes that do not meet; `None`: these meet, or it is not asked.
+    /// Where they stand between axes that do not meet, or on an inner track out of round; `None`: neither, or it is not asked.
     pub off_centre: Option<OffCentre>,
 }
 

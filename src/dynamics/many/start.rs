@@ -1,6 +1,6 @@
 //! Where a run of many sprags begins.
 
-use super::axes::{Axes, rotated};
+use super::axes::Axes;
 use super::bending::{Bent, Rings, pressed};
 use super::{ManyStart, SpragGroup, SpragMotion};
 use crate::dynamics::model::{Grip, Mode, Place, State};
@@ -190,10 +190,10 @@ impl Rest<'_> {
         let off = group.off_centre.as_ref()?;
         let curve = &group.model.curve;
         let touch = curve.first_contact_rad();
-        let seen = |k: usize, alpha: f64, axis_m: [f64; 2], phi: f64| {
-            off.turns.at(k, alpha, rotated(axis_m, -(off.azimuth_rad + phi)))
+        let seen = |k: usize, alpha: f64, axis_m: [f64; 2], phi: f64, race: f64| {
+            off.turns.at(k, alpha, off.seen_m(axis_m, phi, race))
         };
-        let begun = seen(0, touch, self.axes.offset_m(0.0, [0.0; 2]), 0.0);
+        let begun = seen(0, touch, self.axes.offset_m(0.0, [0.0; 2]), 0.0, 0.0);
         let races = [at[1] - at[0], at[1]];
         let offset = self.axes.offset_m(0.0, races);
         let axis_m = [offset[0] + at[2], offset[1] + at[3]];
@@ -202,7 +202,7 @@ impl Rest<'_> {
         // Its azimuth moves the axis by a hundredth of what it rolls.
         for _ in 0..40 {
             let left = |alpha: f64| {
-                let [a, b] = seen(curve.arc_at(alpha), alpha, axis_m, phi);
+                let [a, b] = seen(curve.arc_at(alpha), alpha, axis_m, phi, races[0]);
                 let more = a.value + b.value - begun[0].value - begun[1].value;
                 curve.windup_rad(alpha) + more + group.lag_rad.unwrap_or(0.0) - at[0]
             };
@@ -217,7 +217,7 @@ impl Rest<'_> {
             } else {
                 root::bracketed(touch, curve.end().1, low, high, 1e-17, left)?
             };
-            let rolled = seen(curve.arc_at(found), found, axis_m, phi)[1].value - begun[1].value;
+            let rolled = seen(curve.arc_at(found), found, axis_m, phi, races[0])[1].value - begun[1].value;
             let next = at[1] - curve.outer_roll_rad(found) - rolled;
             let done = (found - alpha).abs() <= 1e-15 && (next - phi).abs() <= 1e-15;
             (alpha, phi) = (found, next);

@@ -1,6 +1,5 @@
 //! When a sprag that waits touches.
 
-use super::axes::rotated;
 use super::rhs::Rhs;
 
 impl Rhs<'_> {
@@ -25,13 +24,14 @@ impl Rhs<'_> {
     fn moved_touch_rad(&self, g: usize, t: f64, y: &[f64]) -> f64 {
         let (Some(axes), Some(at)) = (self.axes, &self.groups[g].off_centre) else { return 0.0 };
         let touch = self.groups[g].model.curve.first_contact_rad();
-        let costs = |axis: [f64; 2], phi: f64| {
-            let turns = at.turns.at(0, touch, rotated(axis, -(at.azimuth_rad + phi)));
+        let costs = |axis: [f64; 2], phi: f64, race: f64| {
+            let turns = at.turns.at(0, touch, at.seen_m(axis, phi, race));
             turns[0].value + turns[1].value
         };
         let offset = axes.offset_m(t, [y[0], y[1]]);
         let shift = axes.shift(y, self.groups.len())[0];
         // It has been turned along with the outer race.
-        costs([offset[0] + shift[0], offset[1] + shift[1]], y[1]) - costs(axes.offset_m(0.0, [0.0; 2]), 0.0)
+        costs([offset[0] + shift[0], offset[1] + shift[1]], y[1], y[0])
+            - costs(axes.offset_m(0.0, [0.0; 2]), 0.0, 0.0)
     }
 }
