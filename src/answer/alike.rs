@@ -5,7 +5,7 @@ use super::left_out::LeftOut;
 use super::under_load::{AtLoad, at};
 use crate::clutch::{Carrier, Clutch, Eccentricity, GivenSprag, Sharing, Standing};
 use crate::report::Unit;
-use crate::sharing::{Asked, Shared, Unlike};
+use crate::sharing::{Asked, NotShared, Shared, Unlike};
 use crate::wedge::{StaticPoint, WedgeCurve};
 
 const TOGETHER: &str = "sprags that wedge one after another";
@@ -16,7 +16,6 @@ pub(super) const ECCENTRIC: &str = "eccentric and tilted races";
 const LARGER_M: f64 = 1e-6;
 /// What one sprag lacks to touch, and how far apart the axes are, m: a track that runs out by twice that.
 const APART_M: f64 = 10e-6;
-const UNKNOWN: &str = "not estimated: no static state to start from";
 
 /// The terms; `at_load`: curve and static state at which their cost is named.
 pub(super) fn left_out_of_alike(clutch: &Clutch, at_load: Option<&AtLoad>) -> [LeftOut; 3] {
@@ -27,7 +26,8 @@ pub(super) fn left_out_of_alike(clutch: &Clutch, at_load: Option<&AtLoad>) -> [L
         let case = Case { clutch, curve, point };
         [case.late(), case.larger(), case.eccentric()]
     });
-    let [late, larger, eccentric] = costs.unwrap_or_else(|| [(); 3].map(|()| UNKNOWN.to_owned()));
+    let [late, larger, eccentric] =
+        costs.unwrap_or_else(|| [(); 3].map(|()| "not estimated: no static state to start from".to_owned()));
     [
         LeftOut::new(
             TOGETHER,
@@ -52,43 +52,54 @@ struct Case<'a> {
 
 impl Case<'_> {
     /// The first sprag otherwise than the rest; share of its normal force beside the mean less 1, and windup at which it
-    /// takes load less that of the others, rad.
-    fn first_sprag(&self, start: Standing, sprag: GivenSprag) -> Option<[f64; 2]> {
+    /// takes load less that of the others, rad; else why not.
+    fn first_sprag(&self, start: Standing, sprag: GivenSprag) -> Result<[f64; 2], String> {
         let sharing = Sharing { start, given: vec![sprag], ..Sharing::default() };
         let unlike = Unlike::new(&self.clutch, &sharing, self.curve, 0.0);
         let shared = self.shared(&unlike)?;
-        let later_rad = unlike.lag_rad[0]? - unlike.lag_rad.get(1).copied().flatten().unwrap_or(0.0);
-        Some([shared.shares()[0] - 1.0, later_rad])
+        let first_rad = unlike.lag_rad[0].ok_or("that sprag carries nothing")?;
+        let later_rad = first_rad - unlike.lag_rad.get(1).copied().flatten().unwrap_or(0.0);
+        Ok([shared.shares()[0] - 1.0, later_rad])
     }
 
-    fn shared(&self, unlike: &Unlike) -> Option<Shared> {
-        unlike.carrying(Asked::Torque(self.point.torque_nm), 0.0).ok()
+    fn shared(&self, unlike: &Unlike) -> Result<Shared, String> {
+        unlike.carrying(Asked::Torque(self.point.torque_nm), 0.0).map_err(NotShared::words)
+    }
+
+    /// What a deviation does, or why that is not known.
+    fn told(&self, deviation: &str, does: Result<String, String>) -> String {
+        match does {
+            Ok(does) => format!("{deviation} {does}"),
+            Err(why) => format!("{deviation}: not estimated {}: {why}", at(self.point)),
+        }
     }
 
     fn late(&self) -> String {
         let sprag = GivenSprag { gap_m: Some(APART_M), ..GivenSprag::default() };
-        self.first_sprag(Standing::Sprung, sprag).map_or(UNKNOWN.to_owned(), |[share, later_rad]| {
+        let does = self.first_sprag(Standing::Sprung, sprag).map(|[share, later_rad]| {
             format!(
-                "a sprag that lacks {} to touch takes load {} of windup after the others and carries {} {}",
-                Unit::Micrometre.show(APART_M, 2),
+                "takes load {} of windup after the others and carries {} {}",
                 Unit::Degree.show(later_rad, 2),
                 more(share),
                 at(self.point)
             )
-        })
+        });
+        self.told(&format!("a sprag that lacks {} to touch", Unit::Micrometre.show(APART_M, 2)), does)
     }
 
     fn larger(&self) -> String {
-        let sprag = GivenSprag { size_m: Some(LARGER_M), ..GivenSprag::default() };
-        let both = [Standing::Sprung, Standing::Caged].map(|start| self.first_sprag(start, sprag));
-        let [Some([sprung, _]), Some([caged, _])] = both else { return UNKNOWN.to_owned() };
-        format!(
-            "a sprag {} larger than the others carries {} {}, {} if a cage holds all at one angle: [sharing] looks at each",
-            Unit::Micrometre.show(LARGER_M, 2),
-            more(sprung),
-            at(self.point),
-            more(caged)
-        )
+        let first =
+            |start| self.first_sprag(start, GivenSprag { size_m: Some(LARGER_M), ..GivenSprag::default() });
+        let does = first(Standing::Sprung).and_then(|[sprung, _]| {
+            let [caged, _] = first(Standing::Caged)?;
+            Ok(format!(
+                "carries {} {}, {} if a cage holds all at one angle: [sharing] looks at each",
+                more(sprung),
+                at(self.point),
+                more(caged)
+            ))
+        });
+        self.told(&format!("a sprag {} larger than the others", Unit::Micrometre.show(LARGER_M, 2)), does)
     }
 
     fn eccentric(&self) -> String {
@@ -101,15 +112,16 @@ impl Case<'_> {
         let mut clutch = self.clutch.clone();
         clutch.races.eccentricity = Some(eccentricity);
         let shared = self.shared(&Unlike::new(&clutch, &Sharing::default(), self.curve, 0.0));
-        let largest = shared.map(|s| s.shares().into_iter().fold(0.0, f64::max));
-        largest.map_or(UNKNOWN.to_owned(), |largest| {
+        let does = shared.map(|shared| {
+            let largest = shared.shares().into_iter().fold(0.0, f64::max);
             format!(
-                "axes {} apart and held there: the most pressed sprag carries {} {}; tilted tracks: not estimated",
-                Unit::Micrometre.show(APART_M, 2),
+                "the most pressed sprag carries {} {}; tilted tracks: not estimated",
                 more(largest - 1.0),
                 at(self.point)
             )
-        })
+        });
+        let apart = format!("axes {} apart and held there:", Unit::Micrometre.show(APART_M, 2));
+        self.told(&apart, does)
     }
 }
 
@@ -141,5 +153,18 @@ mod tests {
         assert!((two / one - 2.0).abs() < 0.05, "{one} {two}");
         let [_, _, late_later] = costs(text, 60.0);
         assert!(late < late_later && late_later < 0.0, "{late} {late_later}");
+    }
+
+    /// Near the end of the curve a sprag that deviates comes to its end: that is the reason, not a state that is missing.
+    #[test]
+    fn a_cost_that_is_not_known_says_why() {
+        let clutch = Design::parse(include_str!("../../designs/huang2017-multi-arc.toml"), "multi-arc")
+            .unwrap()
+            .clutch;
+        let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
+        let point = curve.at_torque(curve.end_torque_nm()).unwrap();
+        for term in left_out_of_alike(&clutch, Some(&(curve, point))) {
+            assert!(term.cost.contains(": not estimated at ") && term.cost.contains("end first"), "{term:?}");
+        }
     }
 }

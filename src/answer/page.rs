@@ -45,6 +45,10 @@ pub fn drawing(design: &Design, poses: Vec<SpragPose>) -> Drawing {
     Drawing::of(&design.clutch, poses)
 }
 
+/// Below the drawing of the points of a sprag.
+pub const CENTRES: &str =
+    "Arc centres, centroid (G) and, where a cage holds the sprags, pivot (P) in the body frame (origin Cₑ).";
+
 /// Section of a page with drawings to scale: one sprag in its poses, its arc centres.
 pub fn draw(page: &mut Page, drawing: &Drawing) {
     page.heading("Geometry");
@@ -54,10 +58,7 @@ pub fn draw(page: &mut Page, drawing: &Drawing) {
     } else {
         "One sprag between its races, to scale."
     };
-    page.drawings(&[
-        (drawing.detail_figure(), caption),
-        (drawing.centres_figure(), "Arc centres and centroid in the body frame (origin Cₑ)."),
-    ]);
+    page.drawings(&[(drawing.detail_figure(), caption), (drawing.centres_figure(), CENTRES)]);
 }
 
 /// A page that opens with `answer`, its banner and what belongs to that, and the dimensioned drawing: both in the first screen.

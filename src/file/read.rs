@@ -21,6 +21,14 @@ use super::tolerances_file::TolerancesFile;
 use super::{check, life_file, scenarios, shape, sharing_file, task};
 use crate::design::{Design, Limits, nearest};
 
+/// Symbols that stand behind keys in the files of `new`, and those keys.
+const SYMBOLS: [(&str, &str); 2] = [("r_e", "outer_radius_mm"), ("e_1", "centre_distance_mm")];
+
+fn key_of_symbol(name: &str) -> Option<&'static str> {
+    let symbol = name.strip_suffix("_mm").unwrap_or(name);
+    SYMBOLS.iter().find(|(known, _)| *known == symbol).map(|(_, key)| *key)
+}
+
 const WHAT: &str = "a text file (UTF-8, TOML) that holds a clutch design";
 
 impl Design {
@@ -63,7 +71,8 @@ impl Design {
                         let in_scenes = known.first().is_some_and(|first| first.starts_with("scenarios["));
                         let meant = || in_scenes.then(|| known.join(" or "));
                         let near = || nearest(key, &near).map(str::to_owned);
-                        let like = meant().or_else(near).or_else(|| Some(there()?.join(" or ")));
+                        let symbol = || key_of_symbol(key).map(str::to_owned);
+                        let like = meant().or_else(symbol).or_else(near).or_else(|| Some(there()?.join(" or ")));
                         let help = like.unwrap_or_else(|| {
                             "`sprag-design explain` lists every name, `explain sprags` the keys of a table".to_owned()
                         });

@@ -166,7 +166,7 @@ fn closed(clutch: &Clutch, turn_rad: f64, expansion_per_k: f64) -> Result<(f64, 
                 *side = [side[0].max(need), side[1].min(reach)];
             }
         }
-        let open = |[need, reach]: &[f64; 2]| need * (1.0 + 2.0 * WITHIN) < *reach;
+        let open = |[need, reach]: &[f64; 2]| need * (1.0 + WITHIN) < reach * (1.0 - WITHIN);
         narrowed.iter().all(open).then_some(narrowed)
     };
     let races = &clutch.races;

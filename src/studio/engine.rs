@@ -226,6 +226,34 @@ mod tests {
         assert!(scene.plots.iter().all(|plot| !plot.contains("pinned")));
     }
 
+    /// A contact that a cage bears is closed, and its tangential force asks no friction.
+    #[test]
+    fn sprags_that_a_cage_takes_along_are_not_open() {
+        let (engine, text) = (engine(), include_str!("../../designs/lift-off-inner.toml"));
+        let scene = engine.scene(text, None, "runback", &Settings::default()).unwrap();
+        let inner = scene.modes.iter().zip(&scene.forces_n).map(|(modes, n)| (modes[0], n[0]));
+        assert!(inner.clone().any(|(mode, n)| mode == 3 && n > 0.0));
+        assert!(inner.clone().all(|(mode, n)| mode != 2 || n <= 0.0));
+        // A scene that is one state shows that state, not the torque that was looked at before.
+        let scene = engine.scene(text, None, "load", &Settings::default()).unwrap();
+        let view = engine.check(text, None).unwrap();
+        let nominal = view.poses.iter().map(|p| (p.torque_nm - 700.0).abs()).fold(f64::INFINITY, f64::min);
+        let pose = view.poses.iter().find(|p| (p.torque_nm - 700.0).abs() == nominal).unwrap();
+        assert_eq!(scene.t_s, [0.0]);
+        assert!((scene.alpha_rad[0] / pose.alpha_rad - 1.0).abs() < 0.1 && scene.forces_n[0][0] > 2e4);
+        let carries = view.figures.iter().find(|f| f.name == "carries, nominal").unwrap();
+        assert_eq!(carries.text, "> 1381 Nm");
+    }
+
+    #[test]
+    fn an_overrun_shows_sprags_that_run_free() {
+        let (engine, text) = (engine(), include_str!("../../designs/huang2017-bench.toml"));
+        let scene = engine.scene(text, None, "overrun", &Settings::default()).unwrap();
+        let forces = scene.forces_n[0];
+        assert_eq!(scene.modes[0], [1, 0], "{}", scene.verdict);
+        assert!(forces[0] > 0.0 && forces[0] < 100.0 && forces[1] < 0.0, "{forces:?}");
+    }
+
     #[test]
     fn what_is_wrong_is_said_with_its_line() {
         let engine = engine();

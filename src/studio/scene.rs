@@ -3,10 +3,10 @@
 use super::view::{MarginRow, row};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
-use crate::dynamics::{Grip, Place, Sample};
+use crate::dynamics::{Grip, Overrun, Place, Sample};
 use crate::margin::{LoadState, SceneDemand, scene_demand, scene_rows};
 use crate::report::{Curve, Dash, Plot, Unit, significant};
-use crate::scenario::{NoScenario, Prepared, Settings, Terms, prepare, simulate_prepared};
+use crate::scenario::{NoScenario, Prepared, Settings, Simulation, Terms, prepare, simulate_prepared};
 use serde::Serialize;
 
 /// The demand of one scenario on friction, without its course.
@@ -33,7 +33,7 @@ pub struct SceneView {
     pub verdict: String,
     /// Figures, in words.
     pub facts: Vec<(String, String)>,
-    /// Times, s.
+    /// Times, s; one where the scene is one state.
     pub t_s: Vec<f64>,
     /// alpha, rad.
     pub alpha_rad: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct SceneView {
     pub relative_rad: Vec<f64>,
     /// N_bi, T_bi, N_be, T_be, N.
     pub forces_n: Vec<[f64; 4]>,
-    /// What each contact does: 0 sticks, 1 slips with the race ahead, -1 behind, 2 open.
+    /// What each contact does: 0 sticks, 1 slips with the race ahead, -1 behind, 2 open, 3 taken along by the cage.
     pub modes: Vec<[i8; 2]>,
     /// Plots over time, as SVG: torque of the clutch, demand on friction, angle.
     pub plots: Vec<String>,
@@ -112,7 +112,7 @@ pub fn scene_view(
             ]
             .map(|(name, value)| (name.to_owned(), value))
             .to_vec(),
-            ..SceneView::default()
+            ..SceneView::at_rest(free.alpha_rad, sliding_forces(&free), sliding_modes(&free, carried))
         });
     }
     let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
@@ -145,9 +145,19 @@ pub fn scene_view(
         Grip::Slip(v) if v > 0.0 => 1,
         Grip::Slip(_) => -1,
     };
+    if let (ScenarioKind::Static { .. }, Some(p)) = (scenario.kind, prepared.at_rest()) {
+        let [inner, outer] = [(p.normal_inner_n, p.tan_omega), (p.normal_outer_n, p.tan_nu)];
+        let forces_n = [inner.0, inner.0 * inner.1, outer.0, outer.0 * outer.1];
+        return Ok(SceneView {
+            name: scenario.name.clone(),
+            verdict: verdict(&s),
+            facts,
+            ..SceneView::at_rest(p.alpha_rad, forces_n, [0, 0])
+        });
+    }
     Ok(SceneView {
         name: scenario.name.clone(),
-        verdict: s.verdict.map_or("no verdict", |v| v.name()).to_owned(),
+        verdict: verdict(&s),
         facts,
         t_s: column(&|p| p.t),
         alpha_rad: column(&|p| p.state[0]),
@@ -159,14 +169,50 @@ pub fn scene_view(
         modes: samples
             .iter()
             .map(|p| {
-                let apart = matches!(p.mode.place, Place::Open | Place::Carried);
-                let inner = if apart { 2 } else { mode(p.mode.inner) };
-                [inner, mode(p.mode.outer)]
+                let inner = match p.mode.place {
+                    Place::Open => 2,
+                    Place::Carried => 3,
+                    Place::Arc(_) | Place::Tension => mode(p.mode.inner),
+                };
+                [inner, if p.mode.is_off() { 2 } else { mode(p.mode.outer) }]
             })
             .collect(),
         plots,
         frame: Plot::frame(WIDTH),
     })
+}
+
+impl SceneView {
+    /// A scene that is one state, without a course.
+    fn at_rest(alpha_rad: f64, forces_n: [f64; 4], modes: [i8; 2]) -> Self {
+        Self {
+            t_s: vec![0.0],
+            alpha_rad: vec![alpha_rad],
+            relative_rad: vec![0.0],
+            forces_n: vec![forces_n],
+            modes: vec![modes],
+            ..Self::default()
+        }
+    }
+}
+
+fn verdict(s: &Simulation) -> String {
+    s.verdict.map_or("no verdict", |v| v.name()).to_owned()
+}
+
+/// As in [`SceneView::forces_n`]: the race that slides drags the sprags along.
+fn sliding_forces(free: &Overrun) -> [f64; 4] {
+    let [inner, outer] = [free.normal_inner_n, free.normal_outer_n];
+    [inner, -free.tan_inner * inner, outer, -free.tan_outer * outer]
+}
+
+/// As in [`SceneView::modes`]; `carried`: by a cage that the inner race drives.
+fn sliding_modes(free: &Overrun, carried: bool) -> [i8; 2] {
+    let slides = free.sliding_n > 0.0;
+    match carried {
+        true => [3, if slides { -1 } else { 2 }],
+        false => [if slides { 1 } else { 2 }, 0],
+    }
 }
 
 /// A scene over time, ms.
@@ -182,11 +228,15 @@ impl ScenePlots {
         let over = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(|p| [p.t * 1e3, f(p)]).collect();
         let count = scenario.clutch.sprags.count as f64;
         let oa = |p: &Sample| prepared.model.point(p.mode.place, p.state[0]).oa;
-        let ratio = |t: f64, n: f64| if n > 0.0 { (t / n).abs() } else { f64::NAN };
+        // What a cage bears asks no friction.
+        let ratio = |p: &Sample, t: f64, n: f64| {
+            let by_friction = n > 0.0 && !matches!(p.mode.place, Place::Open | Place::Carried);
+            if by_friction { (t / n).abs() } else { f64::NAN }
+        };
         Self {
             torque_nm: over(&|p| count * p.forces.t_bi * oa(p)),
-            ratio_inner: over(&|p| ratio(p.forces.t_bi, p.forces.n_bi)),
-            ratio_outer: over(&|p| ratio(p.forces.t_be, p.forces.n_be)),
+            ratio_inner: over(&|p| ratio(p, p.forces.t_bi, p.forces.n_bi)),
+            ratio_outer: over(&|p| ratio(p, p.forces.t_be, p.forces.n_be)),
             windup_deg: over(&|p| Unit::Degree.from_si(p.state[3] - p.state[2])),
         }
     }

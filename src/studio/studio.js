@@ -299,7 +299,7 @@ function pose() {
   if (!found?.picture || found.poses.length === 0) return;
   const part = Number($("scrub").value) / 1000;
   let here, forces, slips = [0, 0], relative, largest;
-  if (scene && scene.t_s.length > 1) {
+  if (scene && scene.t_s.length > 0) {
     const i = Math.round(part * (scene.t_s.length - 1));
     here = at("alpha_rad", scene.alpha_rad[i]);
     const first = found.poses[0];
@@ -309,7 +309,7 @@ function pose() {
     // The windup at the start is that of the equilibrium there.
     relative = scene.relative_rad[i] - scene.relative_rad[0] - at("alpha_rad", scene.alpha_rad[0]).windup_rad;
     largest = Math.max(...scene.forces_n.map((f) => Math.hypot(f[0], f[1])), 1);
-    $("now").textContent = `${short(1e3 * scene.t_s[i], 5)} ms`;
+    $("now").textContent = scene.t_s.length > 1 ? `${short(1e3 * scene.t_s[i], 5)} ms` : "";
     const [from, to] = scene.frame;
     document.querySelectorAll("#plots .cursor").forEach((c) => { c.style.left = `${100 * (from + part * (to - from))}%`; });
   } else {
@@ -324,7 +324,7 @@ function pose() {
     $("now").textContent = `${short(torque, 4)} Nm`;
   }
   draw(here, forces, slips, relative, largest);
-  const read = [["N inner", short(forces[0]) + " N"], ["T inner", short(forces[1]) + " N"], ["T/N inner", forces[0] > 0 ? short(forces[1] / forces[0]) : "open"], ["windup", short((-relative * 180) / Math.PI) + "°"]];
+  const read = [["N inner", short(forces[0]) + " N"], ["T inner", short(forces[1]) + " N"], ["T/N inner", slips[0] === 3 ? "cage" : forces[0] > 0 ? short(forces[1] / forces[0]) : "open"], ["windup", short((-relative * 180) / Math.PI) + "°"]];
   if (!scene) read.push(["Hertz inner", short(here.hertz_inner_pa / 1e6) + " MPa"]);
   $("readings").innerHTML = read.map(([k, v]) => `<div><dt>${k}</dt><dd>${v}</dd></div>`).join("");
 }
@@ -353,7 +353,7 @@ function draw(here, forces, slips, relative, largest) {
   const [na, ta, nb, tb] = forces.map((f) => f * px);
   const dot = (at, slip) => `<circle cx="${at[0]}" cy="${at[1]}" r="${slip ? 8 : 4.5}" fill="${slip === 2 ? "none" : slip ? "var(--bad)" : "var(--ink)"}" stroke="${slip ? "var(--bad)" : "var(--paper)"}" stroke-width="1.5"><title>${slip === 2 ? "open" : slip ? "slips" : "sticks"}</title></circle>`;
   const label = (at, text, colour) => `<text x="${at[0] + 12}" y="${at[1] + 4}" fill="${colour}">${text}</text>`;
-  const word = (slip) => (slip === 2 ? "open" : slip ? (slip > 0 ? "slips, race ahead" : "slips, race behind") : "");
+  const word = (slip) => (slip === 3 ? "held by the cage" : slip === 2 ? "open" : slip ? (slip > 0 ? "slips, race ahead" : "slips, race behind") : "");
   // Lines of the legend are apart by the size of its letters, which a narrow window makes larger.
   svg.querySelector(".forces").innerHTML =
     arrow(a, [s * na, -c * na], "var(--c0)") + arrow(a, [-c * ta, -s * ta], "var(--c3)") +
@@ -368,7 +368,7 @@ async function play(name, signal) {
   if (signal?.aborted || $("mode").value !== name) return;
   state.scene = found;
   $("course").hidden = false;
-  $("play").hidden = $("slowly").hidden = found.t_s.length < 2;
+  $("play").hidden = $("slowly").hidden = $("scrub").hidden = found.t_s.length < 2;
   $("verdict").textContent = `${found.name}: ${found.verdict}`;
   $("verdict").className = "verdict " + (found.verdict === "sticks" || found.verdict.startsWith("runs free") ? "held" : found.verdict === "no verdict" ? "mixed" : "broken");
   $("facts").innerHTML = found.facts.map(([k, v]) => `<div><dt>${escaped(k)}</dt><dd>${escaped(v)}</dd></div>`).join("");
@@ -380,6 +380,7 @@ $("mode").addEventListener("change", () => {
   const name = $("mode").value;
   state.scene = null;
   $("course").hidden = $("play").hidden = $("slowly").hidden = true;
+  $("scrub").hidden = false;
   if (!name) return pose();
   $("scrub").value = 0;
   newest("scene", (signal) => play(name, signal)).catch(complain);

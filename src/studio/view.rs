@@ -265,10 +265,16 @@ fn figures(design: &Design, state: &LoadState, rows: &[Margin]) -> [(&'static st
     let carried = |c: Option<Capacity>| {
         c.map_or_else(none, |c| format!("{} ({})", Unit::NewtonMetre.show(c.torque_capacity_nm, 4), c.code))
     };
-    let [nominal, peak] = Capacity::nominal_and_peak(rows, state.curve.end_torque_nm()).map(carried);
+    let end_nm = state.curve.end_torque_nm();
+    let [nominal, peak] = Capacity::nominal_and_peak(rows, end_nm);
+    let nominal = match nominal {
+        // As in the table: not before the curve ends.
+        None if Capacity::asked_at_nominal(rows) => format!("> {}", Unit::NewtonMetre.show(end_nm, 4)),
+        found => carried(found),
+    };
     [
         ("carries, nominal", nominal),
-        ("carries, peak", peak),
+        ("carries, peak", carried(peak)),
         ("outside ⌀", Unit::Millimetre.show(2.0 * races.outer_outside_radius_m, 4)),
         ("width", Unit::Millimetre.show(races.width_m, 4)),
         ("mass", Unit::Gram.show(design.clutch.mass_kg(), 4)),

@@ -456,6 +456,21 @@ fn mutilated_designs_are_answered() {
     }
 }
 
+/// The symbol that stands behind a key in the files of `new`.
+#[test]
+fn a_symbol_of_the_paper_is_told_its_key() {
+    let design = Design::parse(DESIGN, "x.toml").unwrap();
+    let set = |key: &str| {
+        design
+            .with(&[(key.to_owned(), "8.0".to_owned())], "x.toml")
+            .unwrap_err()
+            .to_string()
+            .replace('\n', " ")
+    };
+    assert!(set("r_e_mm").contains("did you mean outer_radius_mm?"), "{}", set("r_e_mm"));
+    assert!(set("e_1").contains("did you mean centre_distance_mm?"), "{}", set("e_1"));
+}
+
 #[test]
 fn deep_nesting_is_refused_not_followed() {
     for (open, close) in [("[", "]"), ("{a=", "}")] {

@@ -303,6 +303,15 @@ fn a_backstop_that_is_to_lift_off_has_a_cage_and_does() {
     );
 }
 
+/// A window of the flanks just wide enough for the reserve at either end.
+#[test]
+fn a_low_lift_off_speed_of_a_backstop_ends_in_an_answer() {
+    let ask =
+        Wish { purpose: purpose("backstop"), lift_off_rad_s: Some(350.0 * PI / 30.0), ..wish(60.0, 900.0) };
+    let made = sized(&ask.check().unwrap()).unwrap().made;
+    assert!(made.least().unwrap().held());
+}
+
 /// The damper between the races brakes the overrun by a tenth of the spring's drag, not by a multiple of all drag.
 #[test]
 fn the_damping_of_a_new_clutch_is_a_small_part_of_its_drag() {

@@ -100,6 +100,11 @@ impl Capacity {
         let nominal = |r: &Margin| r.limit.when == When::Nominal;
         [Self::lowest(rows, end_torque_nm, nominal), Self::lowest(rows, end_torque_nm, |r| !nominal(r))]
     }
+
+    /// Whether any required row is held at nominal torque.
+    pub fn asked_at_nominal(rows: &[Margin]) -> bool {
+        rows.iter().any(|r| r.required && r.limit.when == When::Nominal)
+    }
 }
 
 /// A remark where the clutch carries so much more than it is asked to that the torques may be in another unit.
@@ -159,6 +164,8 @@ pub struct CheckBody {
     #[serde(skip)]
     asked_nm: f64,
     #[serde(skip)]
+    asked_at_nominal: bool,
+    #[serde(skip)]
     materials: Vec<String>,
     /// Speed of the outer race at which the sprags lift off the inner one, rev/min, in a driven cage of the inner race at which they lift off
     /// the outer one; null: contact is kept up to `lift_off_searched_to_rpm`.
@@ -196,6 +203,7 @@ impl CheckBody {
             peak_torque_capacity: peak,
             end: CurveEnd { reason: source.end.name(), torque_nm: source.end_torque_nm, beyond: None },
             asked_nm: source.asked_nm,
+            asked_at_nominal: Capacity::asked_at_nominal(rows),
             materials: source.materials,
             lift_off_rpm: source.lift_off_rad_s.map(rpm),
             lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
@@ -296,7 +304,15 @@ impl CheckBody {
     pub fn capacity_lines(&self) -> Vec<String> {
         let capacities = [("nominal", &self.nominal_torque_capacity), ("peak", &self.peak_torque_capacity)];
         let line = |(kind, capacity): (&str, &Option<Capacity>)| {
-            let c = capacity.as_ref()?;
+            let Some(c) = capacity else {
+                let end = Unit::NewtonMetre.show(self.end.torque_nm, 4);
+                let unreached = || {
+                    format!(
+                        "Torque capacity, {kind}: none of its limits is reached before the curve ends, at {end}"
+                    )
+                };
+                return (kind == "nominal" && self.asked_at_nominal).then(unreached);
+            };
             let torque = Unit::NewtonMetre.show(c.torque_capacity_nm, 4);
             Some(greek(&format!("Torque capacity, {kind}: {torque}, set by {} ({})", c.code, c.name)))
         };

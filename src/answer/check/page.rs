@@ -2,7 +2,7 @@
 
 use super::text::beside_the_rows;
 use super::{CheckAnswer, charts, is_beyond, margin_text, people_table, sections};
-use crate::answer::page::{drawing, half, opened, pose_at_rest};
+use crate::answer::page::{CENTRES, drawing, half, opened, pose_at_rest};
 use crate::answer::{Answer, Provenance};
 use crate::design::Design;
 use crate::margin::Margin;
@@ -71,7 +71,7 @@ pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
         (half(angles), "The same as angles: ω and ν lie between the strut AB and OA, OB; friction holds up to arctan μs."),
         (half(rise), "Cam rise: the undeformed sprag's height from A to B over its rotation, and the gap AB that remains \
             under load. What lies between them is pressed in at both contacts and in the body."),
-        (centres, "Arc centres and centroid in the body frame (origin Cₑ)."),
+        (centres, CENTRES),
     ]);
     if let Some(running) = &answer.body.running {
         page.heading("Radii as made and as run");

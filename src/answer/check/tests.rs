@@ -104,8 +104,13 @@ fn a_slip_row_shows_the_slip_margin_and_what_is_wanted() {
 fn what_the_curve_never_reaches_sets_no_capacity() {
     let rows = [margin("hertz-peak-inner", 0.2, Some(50.0)), margin("end-of-profile", 0.2, Some(50.0))];
     let body = CheckBody::new(&rows, source(None));
-    assert_eq!(body.lowest_torque_capacity.unwrap().code, "end-of-profile");
+    assert_eq!(body.lowest_torque_capacity.as_ref().unwrap().code, "end-of-profile");
     assert!(body.nominal_torque_capacity.is_none());
+    let [nominal, peak] = &body.capacity_lines()[..] else { panic!("{:?}", body.capacity_lines()) };
+    assert!(nominal.contains("nominal: none of its limits is reached before"), "{nominal}");
+    assert!(peak.contains("end-of-profile"), "{peak}");
+    // Where nothing is held at nominal torque nothing is said of it.
+    assert_eq!(CheckBody::new(&rows[1..], source(None)).capacity_lines().len(), 1);
 }
 
 #[test]

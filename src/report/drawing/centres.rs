@@ -72,7 +72,7 @@ pub fn svg(drawing: &Drawing, on_phone: bool) -> String {
     } else {
         (PICTURE, [PICTURE + COLUMN.max(column), HEIGHT])
     };
-    let mut svg = Svg::new(size[0], size[1], "Arc centres and centroid in the body frame, enlarged");
+    let mut svg = Svg::new(size[0], size[1], "Points of the sprag in the body frame, enlarged");
     let range = |axis: usize| {
         let values = points.iter().map(|p| p.at_m[axis]);
         (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
