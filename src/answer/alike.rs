@@ -69,7 +69,7 @@ impl Case<'_> {
     /// What a deviation does, or why that is not known.
     fn told(&self, deviation: &str, does: Result<String, String>) -> String {
         match does {
-            Ok(does) => format!("{deviation} {does}"),
+            Ok(does) => format!("{deviation}{does}"),
             Err(why) => format!("{deviation}: not estimated {}: {why}", at(self.point)),
         }
     }
@@ -78,7 +78,7 @@ impl Case<'_> {
         let sprag = GivenSprag { gap_m: Some(APART_M), ..GivenSprag::default() };
         let does = self.first_sprag(Standing::Sprung, sprag).map(|[share, later_rad]| {
             format!(
-                "takes load {} of windup after the others and carries {} {}",
+                " takes load {} of windup after the others and carries {} {}",
                 Unit::Degree.show(later_rad, 2),
                 more(share),
                 at(self.point)
@@ -90,14 +90,12 @@ impl Case<'_> {
     fn larger(&self) -> String {
         let first =
             |start| self.first_sprag(start, GivenSprag { size_m: Some(LARGER_M), ..GivenSprag::default() });
-        let does = first(Standing::Sprung).and_then(|[sprung, _]| {
-            let [caged, _] = first(Standing::Caged)?;
-            Ok(format!(
-                "carries {} {}, {} if a cage holds all at one angle: [sharing] looks at each",
-                more(sprung),
-                at(self.point),
-                more(caged)
-            ))
+        let does = first(Standing::Sprung).map(|[sprung, _]| {
+            let caged = first(Standing::Caged).map_or_else(|why| why, |[caged, _]| more(caged));
+            let [sprung, at] = [more(sprung), at(self.point)];
+            format!(
+                " carries {sprung} {at}, {caged} if a cage holds all at one angle: [sharing] looks at each"
+            )
         });
         self.told(&format!("a sprag {} larger than the others", Unit::Micrometre.show(LARGER_M, 2)), does)
     }
@@ -115,12 +113,12 @@ impl Case<'_> {
         let does = shared.map(|shared| {
             let largest = shared.shares().into_iter().fold(0.0, f64::max);
             format!(
-                "the most pressed sprag carries {} {}; tilted tracks: not estimated",
+                ": the most pressed sprag carries {} {}; tilted tracks: not estimated",
                 more(largest - 1.0),
                 at(self.point)
             )
         });
-        let apart = format!("axes {} apart and held there:", Unit::Micrometre.show(APART_M, 2));
+        let apart = format!("axes {} apart and held there", Unit::Micrometre.show(APART_M, 2));
         self.told(&apart, does)
     }
 }

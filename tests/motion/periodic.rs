@@ -337,6 +337,11 @@ fn the_command_in_every_form() {
     assert!(stdout(&map).contains("of 6 states roll"), "{}", stdout(&map));
     assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 7);
     assert!(is_self_contained(page).contains("What the clutch does"));
+    // States that the digits of the legend cannot tell apart have one shade, named once on each of two pictures.
+    let like = folder.path("like.html");
+    let near = ["--scenario", "low-10", "--frequency", "10:11", "--amplitude", "5:5.0001", "--points", "2x2"];
+    run(&[&["resonance", MULTI], &near[..], &["--report", &like, "--quiet"]].concat());
+    assert_eq!(std::fs::read_to_string(like).unwrap().matches(">needs 0.").count(), 2);
     // One row; and a state is told line by line, by the words of simulate.
     let row =
         [&args[..], &["--frequency", "60:120", "--amplitude", "2", "--points", "3x1", "--json"]].concat();

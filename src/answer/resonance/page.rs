@@ -71,8 +71,11 @@ impl ResonanceAnswer<'_> {
             side.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], m| [low.min(m), high.max(m)])
         };
         let (held, broken) = (range(true), range(false));
+        let needs = |margin: f64| significant(self.friction / (1.0 + margin), 4);
+        // What the legend cannot tell apart has one shade.
+        let alike = |[from, to]: [f64; 2]| needs(from) == needs(to);
         let shade = |value: f64, from: f64, to: f64| {
-            let share = if to == from { 1.0 } else { (value - from) / (to - from) };
+            let share = if alike([from, to]) { 1.0 } else { (value - from) / (to - from) };
             (share * f64::from(SHADES)).clamp(0.0, f64::from(SHADES - 1)) as u8
         };
         let tile = |c: &ResonanceCell| match c.state.slip_margin {
@@ -82,14 +85,17 @@ impl ResonanceAnswer<'_> {
             Some(m) => (Shade::Broken(shade(m, broken[1], broken[0])), Some(false)),
         };
         let tiles: Vec<(Shade, Option<bool>)> = self.cells().map(tile).collect();
-        let needs = |margin: f64| significant(self.friction / (1.0 + margin), 4);
         let mut legend = Vec::new();
         if held[0] <= held[1] {
             legend.push((Shade::Held(SHADES - 1), format!("needs {}", needs(held[1]))));
-            legend.push((Shade::Held(0), format!("needs {}", needs(held[0]))));
+            if !alike(held) {
+                legend.push((Shade::Held(0), format!("needs {}", needs(held[0]))));
+            }
         }
         if broken[0] <= broken[1] {
-            legend.push((Shade::Broken(0), format!("needs {}", needs(broken[1]))));
+            if !alike(broken) {
+                legend.push((Shade::Broken(0), format!("needs {}", needs(broken[1]))));
+            }
             legend.push((Shade::Broken(SHADES - 1), format!("needs {}", needs(broken[0]))));
         }
         if tiles.iter().any(|(shade, _)| *shade == Shade::Void) {

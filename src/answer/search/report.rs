@@ -6,7 +6,7 @@ use crate::answer::page::{begun, draw, draw_sheet, drawing, pose_at_rest};
 use crate::answer::{Answer, ByAlphabet, Envelope, Finding, Provenance};
 use crate::design::Design;
 use crate::file::shown;
-use crate::margin::{Capacities, static_margins};
+use crate::margin::{Capacities, Margin, When, static_margins};
 use crate::optimise::{Iteration, Status};
 use crate::report::{Curve, Dash, Page, Plot, Screen, Table, Unit};
 use crate::wedge::WedgeCurve;
@@ -52,8 +52,7 @@ impl SearchReport<'_> {
     /// What decides in the answer, with its margin, and the torques that it carries.
     fn holds_and_carries(&self) -> String {
         let rows = self.story().margins();
-        let least = rows.iter().filter(|m| m.required).min_by(|a, b| a.margin().total_cmp(&b.margin()));
-        let decides = least.map(|m| format!("{} decides, {}", m.code(), margin_words(m)));
+        let decides = decides(rows);
         let after = self.answer.design(self.design, "optimum").ok();
         let checked = after.and_then(|after| static_margins(&after, Capacities::Wanted).ok());
         let carried = checked.into_iter().flat_map(|(state, rows, _)| {
@@ -95,6 +94,20 @@ impl SearchReport<'_> {
         let plot = plot.level(self.design.clutch.friction.static_, "\u{3bc}s");
         page.figure(&plot.to_figure(), "Static friction demand at the inner contact.");
     }
+}
+
+/// The row that decides as `check` has it; behind it one that a search alone asks for and that leaves less.
+fn decides(rows: &[Margin]) -> Option<String> {
+    let least = |searched: bool| {
+        rows.iter()
+            .filter(|m| m.required && (m.limit.when == When::Outline) == searched)
+            .min_by(|a, b| a.margin().total_cmp(&b.margin()))
+    };
+    let (asked, searched) = (least(false)?, least(true));
+    let tighter = searched.filter(|m| m.margin() < asked.margin()).map_or_else(String::new, |m| {
+        format!(" (nearer yet to the search: {}, {}, which `check` does not ask)", m.code(), margin_words(m))
+    });
+    Some(format!("{} decides, {}{tighter}", asked.code(), margin_words(asked)))
 }
 
 impl Answer for SearchReport<'_> {
@@ -223,5 +236,24 @@ impl Answer for SearchReport<'_> {
         );
         self.envelope(provenance.run_time_s).close(&mut page);
         page
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::margin::{Demand, limit_of};
+
+    #[test]
+    fn the_row_that_decides_is_one_of_check() {
+        let row = |code: &str, left: f64, allowable: f64| {
+            Margin::new(limit_of(code).unwrap(), Demand::Value(allowable - left), allowable)
+        };
+        let grip = row("grip-inner", 0.02, 0.11);
+        let said = |room: f64| decides(&[grip.clone(), row("flank-rear-inside", room, 1.0)]).unwrap();
+        let near = said(0.01);
+        assert!(near.starts_with("grip-inner decides, ") && near.contains("flank-rear-inside, "), "{near}");
+        let far = said(0.5);
+        assert!(far.starts_with("grip-inner decides, ") && !far.contains("flank"), "{far}");
     }
 }
