@@ -91,11 +91,12 @@ impl Case<'_> {
         let first =
             |start| self.first_sprag(start, GivenSprag { size_m: Some(LARGER_M), ..GivenSprag::default() });
         let does = first(Standing::Sprung).map(|[sprung, _]| {
-            let caged = first(Standing::Caged).map_or_else(|why| why, |[caged, _]| more(caged));
-            let [sprung, at] = [more(sprung), at(self.point)];
-            format!(
-                " carries {sprung} {at}, {caged} if a cage holds all at one angle: [sharing] looks at each"
-            )
+            const CAGED: &str = "if a cage holds all at one angle";
+            let caged = match first(Standing::Caged) {
+                Ok([caged, _]) => format!("{} {CAGED}", more(caged)),
+                Err(why) => format!("not estimated {CAGED} ({why})"),
+            };
+            format!(" carries {} {}, {caged}: [sharing] looks at each", more(sprung), at(self.point))
         });
         self.told(&format!("a sprag {} larger than the others", Unit::Micrometre.show(LARGER_M, 2)), does)
     }
