@@ -55,7 +55,7 @@ const MAY_USE: &[(&str, &str)] = &[
     // Asks for margins and static points as they are; knows no law.
     ("identify", "follow numeric clutch design file wedge margin"),
     // A first design: proportions, then whatever the margins say.
-    ("size", "numeric material clutch design profile scenario margin"),
+    ("size", "numeric material clutch design profile wedge scenario margin"),
     // Files beside one another, then whatever the margins say.
     ("compare", "clutch design file profile wedge scenario margin"),
     // Units and drawings: a profile to draw, no physics.

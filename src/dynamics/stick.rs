@@ -266,8 +266,8 @@ const NEAREST: f64 = 0.03;
 /// Weighted error up to which a step is taken.
 const MOST: f64 = 1.5;
 
-/// Run `model` from `state` on arc `place` with both contacts rolling. `None` where that leaves the curve or asks for
-/// more than these equations hold: a course of speed, a drivetrain, damped contacts, a contact B that holds whatever it takes.
+/// Run `model` from `state` on arc `place` with both contacts rolling. `None` where that begins at first contact, leaves the curve or asks
+/// for more than these equations hold: a course of speed, a drivetrain, damped contacts, a contact B that holds whatever it takes.
 pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSettings) -> Option<Stuck> {
     let Place::Arc(arc) = place else { return None };
     let plain = model.drive.speed_rad_s.is_none()
@@ -279,6 +279,9 @@ pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSe
         return None;
     }
     let (mut rolls, y) = Rolls::new(model, arc, state);
+    if rolls.table.is_at_first_contact(y[0]) {
+        return None;
+    }
     let mut run = Stuck {
         peaks: Peaks::NONE,
         legs: Vec::new(),

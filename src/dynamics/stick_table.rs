@@ -158,6 +158,11 @@ impl<'a> Table<'a> {
         self.about_first_contact && w.abs() < 0.5 * (self.until - self.from)
     }
 
+    /// Whether `w` (rad) lies below the last octave of the first arc.
+    pub(super) fn is_at_first_contact(&self, w: f64) -> bool {
+        self.about_first_contact && w < self.until / f64::from(1 << OCTAVES)
+    }
+
     /// Windup where the present arc begins and ends, rad.
     pub(super) fn ends(&self) -> [f64; 2] {
         [self.from, self.until]
