@@ -136,7 +136,7 @@ fn a_drivetrain_counts_in_a_quick_demand() {
 
 #[test]
 fn the_quick_demand_is_the_demand() {
-    let (mut worst, mut scenes) = (0.0_f64, [0, 0]);
+    let (mut worst, mut scenes) = ([0.0_f64; 2], [0, 0]);
     for design in designs() {
         for scene in &design.scenarios {
             let Ok(p) = prepare(scene) else { continue };
@@ -160,13 +160,14 @@ fn the_quick_demand_is_the_demand() {
             let off = off.into_iter().map(f64::abs).fold(0.0, f64::max);
             println!("{name}: {off:.1e}, {} right-hand sides", quick.rhs_evaluations);
             if !exact.never_engages {
-                assert!(off < 1e-6, "{name}: {off:e}");
-                worst = worst.max(off);
-                scenes[usize::from(exact.by_bisection)] += 1;
+                let bisected = usize::from(exact.by_bisection);
+                assert!(off < [1e-6, 5e-6][bisected], "{name}: {off:e}");
+                worst[bisected] = worst[bisected].max(off);
+                scenes[bisected] += 1;
             }
         }
     }
-    println!("{scenes:?} scenes by peaks and bisected, {worst:.1e} off at most");
+    println!("{scenes:?} scenes by peaks and bisected, {worst:?} off at most");
     assert!(scenes[0] > 15 && scenes[1] > 5, "{scenes:?}");
 }
 
