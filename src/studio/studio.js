@@ -151,7 +151,7 @@ function scenesLater() {
 async function allScenes(signal) {
   const text = state.text, names = state.look.scenarios;
   for (const name of Object.keys(known.scenes)) if (!names.includes(name)) delete known.scenes[name];
-  if ($("mode").value) play($("mode").value, signal);
+  if ($("mode").value) play($("mode").value, signal).catch((error) => signal.aborted || complain(error));
   for (const name of names) {
     const found = await engine.ask("scene_row", { text, name }, signal);
     if (signal.aborted) return;
