@@ -31,6 +31,13 @@ pub struct Sharing {
     pub tracks: Vec<TrackWave>,
 }
 
+impl Sharing {
+    /// Waves of the inner track.
+    pub fn inner_track(&self) -> impl Iterator<Item = &TrackWave> {
+        self.tracks.iter().filter(|wave| !wave.outer)
+    }
+}
+
 /// A wave of a track's radius as made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackWave {

@@ -5,7 +5,7 @@
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Beat {
     from_s: f64,
-    pub(super) omega: f64,
+    omega: f64,
     /// Amplitude times sine and cosine at `from_s`.
     sine: f64,
     cosine: f64,

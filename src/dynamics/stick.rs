@@ -166,7 +166,7 @@ impl<'a> Rolls<'a> {
     /// Ready for a step from `now`, and the slope there.
     pub(super) fn set_out(&mut self, now: Sight) -> Pair {
         self.probed[0] = now;
-        self.beat = Beat::new(self.beat.omega, self.model.loads.amplitude_nm, now.t);
+        self.beat = Beat::new(self.model.loads.omega_rad_s, self.model.loads.amplitude_nm, now.t);
         [now.y[2], now.y[3], now.rates[0], now.rates[1]]
     }
 

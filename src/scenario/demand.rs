@@ -115,7 +115,7 @@ fn quick_tolerance(prepared: &Prepared, settings: &Settings) -> f64 {
 
 /// As [`demand`], for a search: two equations instead of ten where contact is kept. What it differs by from
 /// [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`); where next to nothing damps the swing, below four of them,
-/// and below five of a load where rolling needs tension.
+/// where rolling needs tension, below five.
 /// It ends before its scene once no more can come ([`crate::dynamics`]'s `settled`).
 pub fn demand_quickly(prepared: &Prepared, settings: &Settings) -> RollingDemand {
     let single = Fineness::single(0.1 * settings.tolerance);

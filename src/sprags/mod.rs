@@ -211,10 +211,11 @@ impl Many {
             return Err(NoEachSprag::TooMany(MOST_KINDS));
         }
         let law = Stribeck::of(&clutch.friction);
+        let inner_track: Arc<[TrackWave]> = sharing.inner_track().copied().collect();
         let of = |(g, &i): (usize, &usize)| {
             let sprag = &unlike.sprags[i];
             let own = curve
-                .of_sprag(standing_made(&unlike, i, &sharing.tracks))
+                .of_sprag(standing_made(&unlike, i, &inner_track))
                 .map_err(|why| NoEachSprag::Curve(i, why))?;
             let kinetic = law.kinetic * (sprag.friction / law.static_);
             let friction = Stribeck { static_: sprag.friction, kinetic, ..law };
@@ -225,8 +226,8 @@ impl Many {
         let built: Vec<_> = kinds.par_iter().enumerate().map(of).collect();
         let mut groups = built.into_iter().collect::<Result<Vec<_>, _>>()?;
         if let Some(axes) = &axes {
-            let reach_m = reach_m(axes, &unlike, scenario, &alike, &sharing.tracks);
-            stand_off_centre(&mut groups, &unlike, &kinds, reach_m, &sharing.tracks)?;
+            let reach_m = reach_m(axes, &unlike, scenario, &alike, &inner_track);
+            stand_off_centre(&mut groups, &unlike, &kinds, reach_m, &inner_track)?;
         }
         let rings = match bends {
             true => Some(rings(&groups, &unlike, &kinds, largest_nm(scenario, &alike.model.loads))?)
@@ -379,7 +380,7 @@ fn one_for_each_made<T: Send + Sync>(
 /// Axes of `clutch` where its sprags can feel them: those that do not meet, or that give way under sprags unlike one another.
 fn axes(clutch: &Clutch, unlike: &Unlike<'_>, sharing: &Sharing, speed_rad_s: f64) -> Option<Axes> {
     let gives = unlike.stiffness_n_per_m.is_finite();
-    if unlike.offset_m == 0.0 && !(gives && uneven(unlike)) && sharing.tracks.iter().all(|wave| wave.outer) {
+    if unlike.offset_m == 0.0 && !(gives && uneven(unlike)) && sharing.inner_track().next().is_none() {
         return None;
     }
     let mass_kg = sharing.mass_kg.unwrap_or(clutch.masses_kg()[1]);
@@ -413,9 +414,9 @@ fn reach_m(
     unlike: &Unlike<'_>,
     scenario: &Scenario,
     alike: &Prepared,
-    tracks: &[TrackWave],
+    inner_track: &[TrackWave],
 ) -> f64 {
-    let lobes_m: f64 = tracks.iter().filter(|wave| !wave.outer).map(|wave| wave.amplitude_m).sum();
+    let lobes_m: f64 = inner_track.iter().map(|wave| wave.amplitude_m).sum();
     if axes.bearing.is_none() {
         return (axes.offset_m + lobes_m).max(SHIFTS[1]);
     }
@@ -428,9 +429,9 @@ fn reach_m(
 }
 
 /// What sets sprag `i` apart as made and stays with it: an inner track out of round turns on.
-fn standing_made(unlike: &Unlike<'_>, i: usize, tracks: &[TrackWave]) -> SpragDeviation {
+fn standing_made(unlike: &Unlike<'_>, i: usize, inner_track: &[TrackWave]) -> SpragDeviation {
     let made = unlike.as_made(i);
-    if tracks.iter().all(|wave| wave.outer) { made } else { SpragDeviation { inner_m: 0.0, ..made } }
+    if inner_track.is_empty() { made } else { SpragDeviation { inner_m: 0.0, ..made } }
 }
 
 /// Put every group where it stands between axes that lie up to `reach_m` off; those made alike share a table.
@@ -439,14 +440,13 @@ fn stand_off_centre(
     unlike: &Unlike<'_>,
     kinds: &[usize],
     reach_m: f64,
-    tracks: &[TrackWave],
+    inner_track: &Arc<[TrackWave]>,
 ) -> Result<(), NoEachSprag> {
-    let inner_track: Arc<[TrackWave]> = tracks.iter().filter(|wave| !wave.outer).copied().collect();
     let table = |g: usize| {
         let of = AxisTurns::new(&groups[g].model.curve, reach_m);
         of.map(Arc::new).map_err(|why| NoEachSprag::Curve(kinds[g], why))
     };
-    let made = |g: usize| bits(standing_made(unlike, kinds[g], tracks));
+    let made = |g: usize| bits(standing_made(unlike, kinds[g], inner_track));
     let tables = one_for_each_made(groups.len(), made, table)?;
     for ((group, turns), kind) in groups.iter_mut().zip(tables).zip(kinds) {
         let (azimuth_rad, inner_track) = (unlike.sprags[*kind].azimuth_rad, inner_track.clone());

@@ -132,7 +132,7 @@ impl SharingSceneAnswer<'_> {
 
     /// What an inner track that is not round as made does beside coming out; `None`: it is round.
     fn inner_track_leans(&self) -> Option<LeftOut> {
-        let waves = self.design.sharing.as_ref()?.tracks.iter().filter(|wave| !wave.outer);
+        let waves = self.design.sharing.as_ref()?.inner_track();
         let steepest_m = waves.map(|wave| wave.lobes as f64 * wave.amplitude_m).reduce(f64::max)?;
         let clutch = &self.design.clutch;
         Some(LeftOut::new(
