@@ -38,3 +38,12 @@ pub fn of_scripts(seconds: f64, preload: f64) -> Scenario {
     (*duration_s, *preload_nm) = (seconds, preload);
     scene
 }
+
+/// A torque that rises by and by to `to_nm` (N m) and stays, without a spring: the swing that the ramp leaves dies away.
+pub fn rising(to_nm: f64) -> Scenario {
+    let mut slow = scene("huang2017-bench", "step-up");
+    slow.torque_history = Some(vec![[0.0, 1.0], [0.5, to_nm], [1.2, to_nm]]);
+    slow.clutch.spring.stiffness_nm_per_rad = 0.0;
+    lasting(&mut slow, 1.2);
+    slow
+}

@@ -1,6 +1,6 @@
 //! Sprags one by one between races that bend: beside the one-sprag model, statics, the energy balance and an independent script.
 
-use crate::scenes::{lasting, of_scripts};
+use crate::scenes::{lasting, of_scripts, rising};
 use sprag_design::WedgeCurve;
 use sprag_design::clutch::{GivenSprag, Scenario, Sharing};
 use sprag_design::dynamics::Stop;
@@ -51,14 +51,11 @@ fn races_under_sprags_alike_stay_round() {
 fn a_torque_that_rises_slowly_is_shared_between_races_that_bend_as_statics_shares_it() {
     for (size_m, gap_m, rim) in [(1.5e-6, 0.0, 1.0), (3e-6, 4e-6, 1.0), (0.0, 4e-6, 0.5), (1.5e-6, 0.0, 0.5)]
     {
-        let mut scene = scene("huang2017-bench", "step-up");
-        scene.torque_history = Some(vec![[0.0, 1.0], [0.5, 30.0], [1.2, 30.0]]);
-        scene.clutch.spring.stiffness_nm_per_rad = 0.0;
+        let mut scene = rising(30.0);
         // Rings as thin as that part of their walls.
         let races = &mut scene.clutch.races;
         races.outer_outside_radius_m =
             races.outer_radius_m + rim * (races.outer_outside_radius_m - races.outer_radius_m);
-        lasting(&mut scene, 1.2);
         let given = vec![
             GivenSprag { index: 3, gap_m: Some(gap_m), ..GivenSprag::default() },
             GivenSprag { index: 7, size_m: Some(size_m), ..GivenSprag::default() },

@@ -1,6 +1,6 @@
 //! Sprags one by one in a scene: alike they are the one-sprag model, unlike they are what statics and an independent script say.
 
-use crate::scenes::scene;
+use crate::scenes::{rising, scene};
 use sprag_design::clutch::{Friction, GivenSprag, Scenario, ScenarioKind, Sharing, Standing, TrackWave};
 use sprag_design::dynamics::{ManySample, RunSettings, Sample, SpragCourse, Stop, run, settled_together};
 use sprag_design::scenario::{Settings, prepare};
@@ -143,11 +143,7 @@ fn two_kinds_of_sprags_that_roll_are_two_springs_between_the_races() {
 
 #[test]
 fn a_torque_that_rises_slowly_is_shared_as_statics_shares_it() {
-    let mut scene = scene("huang2017-bench", "step-up");
-    scene.torque_history = Some(vec![[0.0, 1.0], [0.5, 40.0], [1.2, 40.0]]);
-    scene.clutch.spring.stiffness_nm_per_rad = 0.0;
-    let ScenarioKind::Transient { duration_s, .. } = &mut scene.kind else { panic!() };
-    *duration_s = 1.2;
+    let scene = rising(40.0);
     let given = |size| GivenSprag { index: 7, size_m: Some(size), ..GivenSprag::default() };
     let curve = WedgeCurve::build(&scene.clutch, &scene.clutch.profile().unwrap(), 0.0).unwrap();
     let mut beside = Vec::new();
@@ -203,12 +199,8 @@ fn tracks_out_of_round_as_made_are_shared_as_statics_shares_them() {
         amplitude_m,
         azimuth_rad: 0.0,
     };
-    let mut slow = scene("huang2017-bench", "step-up");
-    slow.torque_history = Some(vec![[0.0, 1.0], [0.5, 40.0], [1.2, 40.0]]);
-    slow.clutch.spring.stiffness_nm_per_rad = 0.0;
+    let mut slow = rising(40.0);
     slow.clutch.races.eccentricity = None;
-    let ScenarioKind::Transient { duration_s, .. } = &mut slow.kind else { panic!() };
-    *duration_s = 1.2;
     let curve = WedgeCurve::build(&slow.clutch, &slow.clutch.profile().unwrap(), 0.0).unwrap();
     let mut beside = Vec::new();
     for amplitude_m in [1.5e-6, 3e-6] {

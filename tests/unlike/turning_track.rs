@@ -1,8 +1,8 @@
 //! An inner track out of round as made turns with its race and passes the sprags: beside statics, the round track, its energy.
 
-use crate::scenes::{lasting, scene};
+use crate::scenes::{lasting, rising, scene};
 use sprag_design::WedgeCurve;
-use sprag_design::clutch::{ScenarioKind, Sharing, Standing, TrackWave};
+use sprag_design::clutch::{Sharing, Standing, TrackWave};
 use sprag_design::dynamics::Stop;
 use sprag_design::scenario::Settings;
 use sprag_design::sharing::{Asked, Unlike};
@@ -33,12 +33,8 @@ fn a_track_that_is_all_but_round_leaves_the_paper_s_model() {
 /// far, and not what it has where the track stands.
 #[test]
 fn a_track_that_passes_slowly_is_shared_as_statics_shares_it() {
-    let mut slow = scene("huang2017-bench", "step-up");
-    slow.torque_history = Some(vec![[0.0, 1.0], [0.5, 40.0], [1.2, 40.0]]);
-    slow.clutch.spring.stiffness_nm_per_rad = 0.0;
+    let mut slow = rising(40.0);
     slow.clutch.races.eccentricity = None;
-    let ScenarioKind::Transient { duration_s, .. } = &mut slow.kind else { panic!() };
-    *duration_s = 1.2;
     let curve = WedgeCurve::build(&slow.clutch, &slow.clutch.profile().unwrap(), 0.0).unwrap();
     for (start, lobes) in [(Standing::Caged, 3), (Standing::Sprung, 5)] {
         let mut beside = Vec::new();
