@@ -54,10 +54,20 @@ impl Feature {
     }
 }
 
+/// A direction in which a range of normals of either begins or ends.
+struct Edge {
+    along: Vector2<f64>,
+    /// How far the one reaches along it, and the other against it, m.
+    reach_m: [f64; 2],
+}
+
 /// One sprag and its neighbour, `pitch` further round O.
 struct Neighbours {
     features: Vec<Feature>,
     pitch: f64,
+    /// Centres of the neighbour's features, seen in the sprag's own frame.
+    there: Vec<Vector2<f64>>,
+    edges: Vec<Edge>,
 }
 
 impl Neighbours {
@@ -82,7 +92,17 @@ impl Neighbours {
             }
             features.push(Feature::new(segment.end_m(), 0.0, from_azimuth, span));
         }
-        Self { features, pitch }
+        let facing = PI - pitch;
+        // far.centre seen by n(phi): c.dir(phi + facing) = (c turned by -facing).n(phi).
+        let there = features.iter().map(|far| turned(far.centre, -facing)).collect();
+        let mut neighbours = Self { features, pitch, there, edges: Vec::new() };
+        let ends = neighbours.features.iter().flat_map(|f| [f.from_azimuth, f.from_azimuth - f.span]);
+        let edges = ends.flat_map(|end| [end, end - facing]).map(|azimuth| {
+            let reach_m = [neighbours.support(azimuth), neighbours.support(azimuth + facing)];
+            Edge { along: along(azimuth), reach_m }
+        });
+        neighbours.edges = edges.collect();
+        neighbours
     }
 
     /// Largest n.p over the outline for the direction n at `azimuth`, m.
@@ -110,14 +130,10 @@ impl Neighbours {
         let s = self.chord(oc_e) * along((PI + self.pitch) / 2.0 - rotation);
         let gap =
             |azimuth: f64| s.dot(&along(azimuth)) - self.support(azimuth) - self.support(azimuth + facing);
-        let mut widest = f64::NEG_INFINITY;
-        // far.centre seen by n(phi): c.dir(phi + facing) = (c turned by -facing).n(phi).
-        let there: Vec<Vector2<f64>> = self.features.iter().map(|far| turned(far.centre, -facing)).collect();
+        let at_edge = |e: &Edge| s.dot(&e.along) - e.reach_m[0] - e.reach_m[1];
+        let mut widest = self.edges.iter().map(at_edge).fold(f64::NEG_INFINITY, f64::max);
         for near in &self.features {
-            for azimuth in [near.from_azimuth, near.from_azimuth - near.span] {
-                widest = widest.max(gap(azimuth)).max(gap(azimuth - facing));
-            }
-            for (far, there) in self.features.iter().zip(&there) {
+            for (far, there) in self.features.iter().zip(&self.there) {
                 let v = s - near.centre - there;
                 if !near.may_carry(&v) {
                     continue;

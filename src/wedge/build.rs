@@ -318,8 +318,8 @@ pub enum Effort {
     /// To rounding.
     #[default]
     Full,
-    /// A quarter of the closures and no more than 1e-7 of N and windup off (test `a_quick_curve_is_the_curve`), or the full
-    /// one where that does not do: for a search, whose answer is looked at once more.
+    /// A quarter of the closures and no more than 1e-7 of N and windup off (test `a_quick_curve_is_the_curve`), with panels halved
+    /// where they do not follow, or the full one where that does not do either: for a search, whose answer is looked at once more.
     Search,
     /// The same, taken whatever it leaves out: for a first design, whose lengths go by tenths of a millimetre.
     Sketch,

@@ -170,12 +170,12 @@ impl WedgeCurve {
 
     /// The same of `arcs`, its first ones.
     pub(super) fn truncation_of(&self, arcs: &[Arc<ArcTable>]) -> f64 {
-        let skip = |k: usize| match (k, self.effort) {
+        let skip = |k: usize, arc: &ArcTable| match (k, self.effort) {
             (0, Effort::Full) => 2,
-            (0, Effort::Search | Effort::Sketch) => lowest(self.exponent),
+            (0, Effort::Search | Effort::Sketch) => lowest(self.exponent) << arc.cuts,
             _ => 0,
         };
-        arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k))).fold(0.0, f64::max)
+        arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k, a))).fold(0.0, f64::max)
     }
 
     /// Everything at `alpha`, with the functions of arc `k`, which are continued smoothly a little past its

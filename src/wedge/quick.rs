@@ -29,6 +29,17 @@ pub(super) fn lowest(exponent: f64) -> usize {
     if exponent == LOGARITHMIC { 2 } else { 1 }
 }
 
+/// Times that panels are halved at most where they vary more than they follow: of an ellipse of parameter 1 + x about 1 + 2 x is left.
+pub(super) const MOST_CUTS: u32 = 2;
+
+/// `breaks` with each panel between them in 2^`times` of equal length.
+fn halved(breaks: Vec<f64>, times: u32) -> Vec<f64> {
+    (0..times).fold(breaks, |breaks, _| {
+        let middles = breaks.windows(2).flat_map(|w| [0.5 * (w[0] + w[1]), w[1]]);
+        breaks[..1].iter().copied().chain(middles).collect()
+    })
+}
+
 /// Where Newton's steps may end, relative: the next would be less than rounding.
 const SETTLED: f64 = 1e-9;
 
@@ -42,11 +53,12 @@ impl ArcBuilder<'_> {
         first: bool,
         edges: &[Edge],
         alpha_until: f64,
+        cuts: u32,
     ) -> Result<(Panels<LANES>, Panels<1>), NoClosure> {
         if first {
-            self.first_quickly(n_until, edges)
+            self.first_quickly(n_until, edges, cuts)
         } else {
-            self.later_quickly(n_from, n_until, windup_from, edges, alpha_until)
+            self.later_quickly(n_from, n_until, windup_from, edges, alpha_until, cuts)
         }
     }
 
@@ -59,7 +71,12 @@ impl ArcBuilder<'_> {
     }
 
     /// As [`ArcBuilder::first`].
-    fn first_quickly(&self, n_until: f64, edges: &[Edge]) -> Result<(Panels<LANES>, Panels<1>), NoClosure> {
+    fn first_quickly(
+        &self,
+        n_until: f64,
+        edges: &[Edge],
+        cuts: u32,
+    ) -> Result<(Panels<LANES>, Panels<1>), NoClosure> {
         let z_end = n_until.powf(0.1);
         let edges: Vec<Edge> = edges.iter().map(|e| Edge { at: e.at.powf(0.1), ..*e }).collect();
         let breaks: &[f64] = match self.exponent {
@@ -70,7 +87,7 @@ impl ArcBuilder<'_> {
         };
         let over = |end: f64, edges: &[Edge]| {
             let fixed: Vec<f64> = breaks.iter().map(|b| b * end).collect();
-            Layout::new(&fixed, edges)
+            Layout::new(&halved(fixed, cuts), edges)
         };
         let in_z = over(z_end, &edges);
         let sampled: Panels<SAMPLED> =
@@ -120,15 +137,16 @@ impl ArcBuilder<'_> {
         windup_from: f64,
         edges: &[Edge],
         alpha_until: f64,
+        cuts: u32,
     ) -> Result<(Panels<LANES>, Panels<1>), NoClosure> {
-        let in_n = Layout::new(&[n_from, n_until], edges);
+        let in_n = Layout::new(&halved(vec![n_from, n_until], cuts), edges);
         let sampled: Panels<SAMPLED> = in_n.panels(|n| self.sample(n, |alpha, _| alpha))?;
         let alpha_of = sampled.combined(&lane(LANES));
         let slope = alpha_of.derivative([0]);
         let alpha_from = self.closure(n_from)?.alpha.v;
         let at_alpha = |e: &Edge| Edge { at: alpha_of.at(e.at)[0], ..*e };
         let edges: Vec<Edge> = edges.iter().map(at_alpha).collect();
-        let layout = Layout::new(&[alpha_from, alpha_until], &edges);
+        let layout = Layout::new(&halved(vec![alpha_from, alpha_until], cuts), &edges);
         let lanes = sure(layout.panels(|alpha| {
             let mut n = n_from + (n_until - n_from) * (alpha - alpha_from) / (alpha_until - alpha_from);
             for _ in 0..50 {

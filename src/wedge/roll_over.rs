@@ -269,6 +269,7 @@ impl Way {
             torque_until_nm: end.torque_nm(self.seats[0][0][0].count).v,
             shift: seat.shift,
             edges: Vec::new(),
+            cuts: 0,
             lanes,
             table,
         })

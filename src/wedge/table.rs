@@ -8,6 +8,7 @@
 use super::build::Effort;
 use super::closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 use super::curve::WedgePoint;
+use super::quick::{MOST_CUTS, lowest};
 use crate::numeric::{
     panels::{Grade, Panels},
     pieces::Pieces,
@@ -70,6 +71,8 @@ pub(super) struct ArcTable {
     pub(super) shift: f64,
     /// Where panels had to end, N.
     pub(super) edges: Vec<Edge>,
+    /// Times that panels of a quick table were halved.
+    pub(super) cuts: u32,
     pub(super) lanes: Panels<LANES>,
     /// The lanes, the slopes of rho_i and rho_e by the variable of the table, the windup.
     pub(super) table: Pieces<READ>,
@@ -222,8 +225,17 @@ impl ArcBuilder<'_> {
         let alpha_until = end.alpha.v;
         // Next to where they are a panel holds all but the second order of what they move by.
         let edges = like.map_or_else(|| self.edges(n_from, n_until), |like| like.edges.clone());
+        let mut cuts = like.map_or(0, |like| like.cuts);
         let (lanes, windup) = if self.effort != Effort::Full {
-            self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until)?
+            let skip = if first { lowest(self.exponent) } else { 0 };
+            loop {
+                let found = self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until, cuts)?;
+                let does = found.0.truncation(skip << cuts) < self.effort.trusted();
+                if like.is_some() || does || cuts == MOST_CUTS {
+                    break found;
+                }
+                cuts += 1;
+            }
         } else if first {
             let (lanes, layout, s_edges) = self.first(n_until, &edges)?;
             let windup = first_windup(&lanes, &layout, &s_edges, self.exponent);
@@ -249,6 +261,7 @@ impl ArcBuilder<'_> {
             torque_until_nm,
             shift: self.shift,
             edges,
+            cuts,
             lanes,
             table,
         })

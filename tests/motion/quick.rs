@@ -32,6 +32,12 @@ fn a_quick_curve_is_the_curve() {
         let clutch = Design::read(Path::new(MULTI)).unwrap().clutch;
         cases.push((format!("multi-arc, {law:?}"), sprag_design::Clutch { contact: law, ..clutch }));
     }
+    // Its panels are halved on the way: radii far apart under one patch, as an optimum has them.
+    let mut clutch = Design::read(Path::new("designs/huang2017-elastic.toml")).unwrap().clutch;
+    for (arc, radius_m) in clutch.sprags.inner_arcs.iter_mut().zip([4.255e-3, 3.6e-3, 5.17e-3]) {
+        arc.radius_m = radius_m;
+    }
+    cases.push(("elastic, radii far apart".to_owned(), clutch));
     for (name, clutch) in cases {
         let profile = clutch.profile().unwrap();
         for speed in [0.0, 1000.0] {
