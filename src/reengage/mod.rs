@@ -20,6 +20,7 @@ use crate::dynamics::{Run, Stop};
 use crate::element::{Beginning, Element, NoElement, Port, Settings, Torque};
 use crate::follow::Follow;
 use crate::wedge::{StaticPoint, WedgeCurve};
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 /// What is asked.
@@ -115,46 +116,84 @@ const MOST: usize = 200_000;
 /// Panels of the integrals below.
 const PANELS: u32 = 4096;
 
-/// The windup from `torque_nm` to the end of the curve in panels: torques at its ends, and the work that goes into it beside that of
-/// the torque that acts, J.
-fn panels(curve: &WedgeCurve, torque_nm: f64) -> Option<impl Iterator<Item = ([f64; 2], f64)> + '_> {
-    let end_nm = curve.end_torque_nm() * (1.0 - 1e-12);
-    let mut before = [torque_nm, curve.at_torque(torque_nm)?.windup_rad];
-    Some((1..=PANELS).map_while(move |k| {
-        let here_nm = torque_nm + (end_nm - torque_nm) * f64::from(k) / f64::from(PANELS);
-        let windup_rad = curve.at_torque(here_nm)?.windup_rad;
-        let work_j = (0.5 * (before[0] + here_nm) - torque_nm) * (windup_rad - before[1]);
-        let ends = [before[0], here_nm];
-        before = [here_nm, windup_rad];
-        Some((ends, work_j))
-    }))
+/// Torques at the ends of a part of the windup, N m, and the work that goes into it beside that of the torque that acts, J.
+type Panel = ([f64; 2], f64);
+
+/// The windup from a torque that acts to the end of the curve in panels, computed as far as they are asked for.
+struct Windup<'a> {
+    torque_nm: f64,
+    known: Vec<Panel>,
+    more: Box<dyn Iterator<Item = Panel> + 'a>,
+}
+
+impl<'a> Windup<'a> {
+    /// `None`: the curve does not carry `torque_nm`.
+    fn new(curve: &'a WedgeCurve, torque_nm: f64) -> Option<Self> {
+        let end_nm = curve.end_torque_nm() * (1.0 - 1e-12);
+        let mut before = [torque_nm, curve.at_torque(torque_nm)?.windup_rad];
+        let more = (1..=PANELS).map_while(move |k| {
+            let here_nm = torque_nm + (end_nm - torque_nm) * f64::from(k) / f64::from(PANELS);
+            let windup_rad = curve.at_torque(here_nm)?.windup_rad;
+            let work_j = (0.5 * (before[0] + here_nm) - torque_nm) * (windup_rad - before[1]);
+            let ends = [before[0], here_nm];
+            before = [here_nm, windup_rad];
+            Some((ends, work_j))
+        });
+        Some(Self { torque_nm, known: Vec::new(), more: Box::new(more) })
+    }
+
+    fn panel(&mut self, k: usize) -> Option<Panel> {
+        if k == self.known.len() {
+            self.known.extend(self.more.next());
+        }
+        self.known.get(k).copied()
+    }
+
+    fn by_energy_nm(&mut self, energy_j: f64) -> Option<f64> {
+        let mut left_j = energy_j;
+        let mut k = 0;
+        while let Some(([from_nm, until_nm], work_j)) = self.panel(k) {
+            if work_j >= left_j {
+                // Work rises with the square of the torque where the panel begins at the torque that acts.
+                let [from, until] = [from_nm, until_nm].map(|nm| nm - self.torque_nm);
+                let square = from * from + (until * until - from * from) * left_j / work_j;
+                return Some(self.torque_nm + square.sqrt());
+            }
+            left_j -= work_j;
+            k += 1;
+        }
+        None
+    }
+
+    fn taken_up_j(&mut self, until_nm: f64) -> f64 {
+        let mut taken_j = 0.0;
+        let mut k = 0;
+        while let Some((ends, work_j)) = self.panel(k) {
+            if ends[1] >= until_nm {
+                let [from, to, until] = [ends[0], ends[1], until_nm].map(|nm| nm - self.torque_nm);
+                return taken_j + work_j * (until * until - from * from) / (to * to - from * from);
+            }
+            taken_j += work_j;
+            k += 1;
+        }
+        taken_j
+    }
 }
 
 /// Torque up to which `energy_j` winds the clutch up from `torque_nm` on, that torque doing its part; `None`: not on the curve.
 pub fn by_energy_nm(curve: &WedgeCurve, torque_nm: f64, energy_j: f64) -> Option<f64> {
-    let mut left_j = energy_j;
-    for ([from_nm, until_nm], work_j) in panels(curve, torque_nm)? {
-        if work_j >= left_j {
-            // Work rises with the square of the torque where the panel begins at the torque that acts.
-            let [from, until] = [from_nm - torque_nm, until_nm - torque_nm];
-            return Some(torque_nm + (from * from + (until * until - from * from) * left_j / work_j).sqrt());
-        }
-        left_j -= work_j;
-    }
-    None
+    Windup::new(curve, torque_nm)?.by_energy_nm(energy_j)
 }
 
 /// Energy that winds the clutch up from `torque_nm` to `until_nm`, at most to the end of its curve, J: [`by_energy_nm`] turned round.
 pub fn taken_up_j(curve: &WedgeCurve, torque_nm: f64, until_nm: f64) -> Option<f64> {
-    let mut taken_j = 0.0;
-    for ([from_nm, to_nm], work_j) in panels(curve, torque_nm)? {
-        if to_nm >= until_nm {
-            let [from, to, until] = [from_nm, to_nm, until_nm].map(|nm| nm - torque_nm);
-            return Some(taken_j + work_j * (until * until - from * from) / (to * to - from * from));
-        }
-        taken_j += work_j;
-    }
-    Some(taken_j)
+    Some(Windup::new(curve, torque_nm)?.taken_up_j(until_nm))
+}
+
+/// [`taken_up_j`] of two torques.
+pub(crate) fn both_taken_up_j(curve: &WedgeCurve, torque_nm: f64, until_nm: [f64; 2]) -> Option<[f64; 2]> {
+    let mut windup = Windup::new(curve, torque_nm)?;
+    Some(until_nm.map(|nm| windup.taken_up_j(nm)))
 }
 
 /// How far a slip comes.
@@ -172,6 +211,8 @@ struct Drive<'a> {
     /// Angle of the races against one another at the start, rad.
     begun_rad: f64,
     dt_s: f64,
+    /// The windup of the clutch that grips; `None`: the torque by energy is not asked for.
+    windup: RefCell<Option<Windup<'a>>>,
     follow: &'a Follow,
 }
 
@@ -260,18 +301,18 @@ impl Drive<'_> {
             path_in_all_m: Some(self.apart(&grips).0).filter(|_| wound),
             speed_rad_s,
             peak: curve.at_normal(most_n).filter(|_| ended.is_none()),
-            by_energy_nm: self.by_energy_nm(curve, speed_rad_s).filter(|_| known),
+            by_energy_nm: if known { self.by_energy_nm(speed_rad_s) } else { None },
             ended,
         })
     }
 
     /// Largest torque that the energy of this speed of the races against one another comes to.
-    fn by_energy_nm(&self, curve: &WedgeCurve, speed_rad_s: f64) -> Option<f64> {
-        by_energy_nm(curve, self.case.torque_nm, self.case.energy_j(speed_rad_s))
+    fn by_energy_nm(&self, speed_rad_s: f64) -> Option<f64> {
+        self.windup.borrow_mut().as_mut()?.by_energy_nm(self.case.energy_j(speed_rad_s))
     }
 
     /// `path_m` with nothing between the races from `end` on: the torque alone drives them apart.
-    fn free(&self, curve: &WedgeCurve, end: &SlipEnd, path_m: f64) -> Blow {
+    fn free(&self, end: &SlipEnd, path_m: f64) -> Blow {
         let acceleration = self.case.torque_nm / self.case.reduced_kg_m2();
         let path_rad = (path_m - end.path_m).max(0.0) / self.radius_m;
         let speed_rad_s = (end.speed_rad_s.powi(2) + 2.0 * acceleration * path_rad).sqrt();
@@ -282,7 +323,7 @@ impl Drive<'_> {
             path_in_all_m: None,
             speed_rad_s,
             peak: None,
-            by_energy_nm: self.by_energy_nm(curve, speed_rad_s),
+            by_energy_nm: self.by_energy_nm(speed_rad_s),
             ended: Some(end.stop),
         }
     }
@@ -293,6 +334,16 @@ impl Drive<'_> {
 /// # Errors
 /// [`NoElement`]: the clutch has no such start.
 pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<Blows, NoElement> {
+    blows_with(clutch, case, true, follow)
+}
+
+/// The same, [`Blow::by_energy_nm`] only where it is asked for: that is the dearest of it.
+pub(crate) fn blows_with(
+    clutch: &Clutch,
+    case: &SlipUnderLoad,
+    by_energy: bool,
+    follow: &Follow,
+) -> Result<Blows, NoElement> {
     let mut held = clutch.clone();
     [held.races.inner_inertia_kg_m2, held.races.outer_inertia_kg_m2] = case.inertia_kg_m2;
     // A damper between the races would take from the blow what nobody has measured.
@@ -307,7 +358,10 @@ pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<B
     let stiffness = at_torque.map_or(1.0, |p| p.k_tangent_nm_per_rad);
     let needs = at_torque.map_or(f64::INFINITY, |p| p.required_friction());
     let dt_s = TAU * (case.reduced_kg_m2() / stiffness).sqrt() / ADVANCES;
-    let mut drive = Drive { case, radius_m: clutch.races.inner_radius_m, begun_rad: 0.0, dt_s, follow };
+    let windup = by_energy.then(|| Windup::new(&rests.model().curve, torque_nm)).flatten();
+    let windup = RefCell::new(windup);
+    let radius_m = clutch.races.inner_radius_m;
+    let mut drive = Drive { case, radius_m, begun_rad: 0.0, dt_s, windup, follow };
     drive.begun_rad = drive.apart(&rests).0 / drive.radius_m;
     let mut slips = rests.exchanged(&slippery)?;
     // Made once: each path goes on from where the slip stands then.
@@ -315,7 +369,7 @@ pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<B
     let mut found = Blows { list: Vec::with_capacity(case.paths_m.len()), holds: None, needs, ended: None };
     for &path_m in &case.paths_m {
         if let Some(end) = found.ended {
-            found.list.push(drive.free(&rests.model().curve, &end, path_m));
+            found.list.push(drive.free(&end, path_m));
             continue;
         }
         match drive.slip_to(&mut slips, path_m)? {
@@ -329,7 +383,7 @@ pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<B
                 if stop != Stop::FellAway {
                     return Ok(found);
                 }
-                found.list.push(drive.free(&rests.model().curve, &end, path_m));
+                found.list.push(drive.free(&end, path_m));
             }
         }
     }

@@ -14,7 +14,7 @@ use crate::dynamics::Stop;
 use crate::element::NoElement;
 use crate::follow::Follow;
 use crate::margin::{Capacities, LIFT_OFF_TO_RAD_S, LoadState, lift_off_rad_s, load_margins, load_state};
-use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
+use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, blows_with, both_taken_up_j};
 use crate::report::{Page, Screen, Table};
 use rayon::prelude::*;
 use std::fmt;
@@ -222,10 +222,9 @@ impl Design {
         let lift_off_rad_s = state.as_ref().and_then(lift_off);
         let bears = state.as_ref().and_then(|state| peak_torque_borne(self, state));
         let takes_up_j = state.and_then(|state| {
-            let up_to = |nm: f64| taken_up_j(&state.curve, case.torque_nm, nm);
             let end_nm = state.curve.end_torque_nm();
             let most_nm = bears.as_ref().map_or(end_nm, |(nm, _)| nm.min(end_nm)).max(case.torque_nm);
-            Some([up_to(most_nm)?, up_to(end_nm)?])
+            both_taken_up_j(&state.curve, case.torque_nm, [most_nm, end_nm])
         });
         let speed_of = running.map(|r| r.0);
         let mut answer = ReengagementAnswer {
@@ -291,7 +290,7 @@ impl ReengagementAnswer<'_> {
     /// Whether a slip of `path_m` at `friction` is borne; `None`: stopped.
     fn one_is_borne(&self, friction: f64, path_m: f64, follow: &Follow) -> Result<Option<bool>, NoElement> {
         let case = SlipUnderLoad { friction, paths_m: vec![path_m], ..self.case.clone() };
-        let found = blows(&self.design.clutch, &case, follow)?;
+        let found = blows_with(&self.design.clutch, &case, false, follow)?;
         let borne = found.ended.is_none() && found.list.iter().all(|blow| self.bears_it(blow));
         Ok((!follow.stopped()).then_some(borne))
     }
