@@ -3,7 +3,7 @@
 use super::{Bears, Shared, Unlike, rotated};
 use crate::clutch::Carrier;
 use crate::numeric::root;
-use crate::wedge::{EndReason, SpragDeviation, Statics};
+use crate::wedge::{Borne, EndReason, SpragDeviation, Statics};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 
@@ -285,6 +285,8 @@ impl Unlike<'_> {
             rises: vec![[0.0; 3]; n],
         };
         let mut alike = vec![None; n];
+        // All that carry nothing stand alike.
+        let mut unloaded: Option<Borne> = None;
         for i in self.able() {
             let own_rad = x[i];
             t.shared.loads[i].own_rad = own_rad;
@@ -292,7 +294,13 @@ impl Unlike<'_> {
                 true => self.curve.at_windup(own_rad).ok_or(NotShared::NoBalance)?.0.n_bi,
                 false => 0.0,
             };
-            let borne = self.statics().borne(normal).ok_or(NotShared::NoBalance)?;
+            let borne = match unloaded.filter(|_| normal == 0.0) {
+                Some(known) => known,
+                None => self.statics().borne(normal).ok_or(NotShared::NoBalance)?,
+            };
+            if normal == 0.0 {
+                unloaded = Some(borne);
+            }
             let c = borne.closure;
             if own_rad > 0.0 {
                 t.stiffness[i] = 1.0 / c.windup_slope();

@@ -50,23 +50,32 @@ impl<'a> Turn<'a> {
     /// # Errors
     /// The [`NotShared`] of the first place that does not carry it.
     pub fn at(&self, torque_nm: f64) -> Result<Vec<Shared>, NotShared> {
-        let places = self.places.par_iter();
-        let found: Vec<_> =
-            places.map(|(clutch, turned)| clutch.carrying(Asked::Torque(torque_nm), *turned)).collect();
+        let places = (0..self.places.len()).into_par_iter();
+        let found: Vec<_> = places.map(|k| self.carrying(k, torque_nm)).collect();
         found.into_iter().collect()
+    }
+
+    /// At `torque_nm` at one place.
+    fn carrying(&self, k: usize, torque_nm: f64) -> Result<Shared, NotShared> {
+        let (clutch, turned) = &self.places[k];
+        clutch.carrying(Asked::Torque(torque_nm), *turned)
     }
 
     /// Torque, N m, up to `beyond_nm` that is carried at every place, to 1e-7 of that, and what ends it; `None`: all of it.
     pub fn end(&self, beyond_nm: f64) -> Option<(f64, NotShared)> {
-        let mut why = self.at(beyond_nm).err()?;
+        let why = self.at(beyond_nm).err()?;
         let (mut held, mut beyond) = (0.0, beyond_nm);
+        // The place that ended the torque before is asked first: one that does not carry it is enough.
+        let mut ended = 0;
         for _ in 0..HALVINGS {
             let torque = 0.5 * (held + beyond);
-            match self.at(torque) {
-                Ok(_) => held = torque,
-                Err(found) => (beyond, why) = (torque, found),
+            let ends = |k: &usize| self.carrying(*k, torque).is_err();
+            let others = || (0..self.places.len()).into_par_iter().filter(|k| *k != ended).find_any(ends);
+            match Some(ended).filter(ends).or_else(others) {
+                Some(k) => (beyond, ended) = (torque, k),
+                None => held = torque,
             }
         }
-        Some((held, why))
+        Some((held, self.at(beyond).err().unwrap_or(why)))
     }
 }
