@@ -130,8 +130,17 @@ pub struct Centroid {
 /// a is C_iC_g.
 #[doc(alias = "Eq. (9)")]
 pub fn centroid(centroid_m: [f64; 2], oc_e: Dual, rotation: Dual) -> Centroid {
-    let reach = centroid_m[0].hypot(centroid_m[1]);
-    let (s, c) = (rotation + centroid_m[0].atan2(centroid_m[1])).sin_cos();
+    centroid_from(polar(centroid_m), oc_e, rotation)
+}
+
+/// Distance from C_e, m, and azimuth there, rad, of a point of the body.
+pub(crate) fn polar(point_m: [f64; 2]) -> [f64; 2] {
+    [point_m[0].hypot(point_m[1]), point_m[0].atan2(point_m[1])]
+}
+
+/// [`centroid`] of one that lies so ([`polar`]).
+pub(crate) fn centroid_from([reach, azimuth]: [f64; 2], oc_e: Dual, rotation: Dual) -> Centroid {
+    let (s, c) = (rotation + azimuth).sin_cos();
     let (x, y) = (s * reach, c * reach + oc_e);
     Centroid { oc_g: (x * x + y * y).sqrt(), gamma: -x.atan2(y) }
 }

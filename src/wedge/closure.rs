@@ -341,8 +341,15 @@ impl Statics {
         let mut body = Yields::default();
         let unlike = self.elastic.unlike != [0.0; 2];
         let mut lag = Dual::constant(0.0);
+        let centroid = kinematics::polar(self.centroid_m);
+        let (mut known_n, mut outer) = (f64::NAN, (0.0, 0.0));
         for round in 0..ROUNDS {
-            let mut d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
+            // A force that stands still needs no law again.
+            if n_be.v != known_n {
+                (known_n, outer) = (n_be.v, self.elastic.at_outer(n_be.v));
+            }
+            let approaches = [inner.approach_m, n_be.chain(outer.0, outer.1)];
+            let mut d = self.opened(self.elastic.deformations(n, n_be, approaches, speed_rad_s));
             d.bulk = body.bulk_m;
             let mut l = kinematics::lengths(&radii, &d);
             if self.elastic.gives_along {
@@ -361,7 +368,7 @@ impl Statics {
             let over = if self.past { TAU } else { 0.0 };
             let rotation = (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along)
                 + (over + shift_rad - azimuth);
-            let g = kinematics::centroid(self.centroid_m, l.oc_e, rotation);
+            let g = kinematics::centroid_from(centroid, l.oc_e, rotation);
             // From the contact point at A to the force.
             let ahead = (inner.ahead_m + body.ahead_m) / l.oa - lag;
             let (seen, sin_b, cos_b) = match ahead.v == 0.0 {

@@ -201,20 +201,25 @@ impl Elastic {
         matches!(self.outer, Approach::Shaped(_))
     }
 
-    /// Deformations at inner normal force `n_bi` and outer `n_be` (N) and approach `contact_inner` (m) at A, at
+    /// delta_H at B at `normal_n`, m, and its slope, m/N.
+    pub(super) fn at_outer(&self, normal_n: f64) -> (f64, f64) {
+        self.outer.at(normal_n)
+    }
+
+    /// Deformations at inner normal force `n_bi` and outer `n_be` (N), approaches `contact_inner` at A and `contact_outer` at B (m), at
     /// `speed` rad/s.
-    pub fn deformations(
+    pub(super) fn deformations(
         &self,
         n_bi: Dual,
         n_be: Dual,
-        contact_inner: Dual,
+        [contact_inner, contact_outer]: [Dual; 2],
         speed_rad_s: f64,
     ) -> Deformations {
         Deformations {
             race_inner: n_bi * self.race_inner_m_per_n,
             race_outer: n_be * self.race_outer_m_per_n,
             contact_inner,
-            contact_outer: law(&self.outer, n_be),
+            contact_outer,
             body: n_bi * self.body_m_per_n,
             bulk: Dual::constant(0.0),
             growth_m: self.outer_race.centrifugal_bore_growth_m(speed_rad_s),
