@@ -73,3 +73,24 @@ fn what_cannot_be_run_is_refused_with_what_to_do() {
     refused(&[bench, "--scenario", "speed-ramp", "--set", seed], "leave its history out");
     refused(&["designs/starter-engine.toml", "--scenario", "cranking", "--set", seed], "drivetrain = []");
 }
+
+#[test]
+fn a_driven_cage_that_a_scene_would_need_is_told() {
+    let folder = Folder::new();
+    let file = folder.path("cage.toml");
+    let cost = |step_nm: f64| {
+        let scene = format!(
+            "\n[sharing]\nseed = 1\n\n[[scenarios]]\nname = \"step\"\nkind = \"transient\"\npreload_nm = 40.0\n\
+             torque_step_nm = {step_nm:?}\nstep_time_s = 0.005\nabutment_stiffness_nm_per_rad = 5000.0\n\
+             duration_s = 0.02\nspeed_rpm = 0.0\n"
+        );
+        let design = std::fs::read_to_string("designs/lift-off-inner.toml").unwrap();
+        std::fs::write(&file, design + &scene).unwrap();
+        let found = json(&run(&["sharing", &file, "--scenario", "step", "--json"]));
+        let terms = found["left_out"].as_array().unwrap();
+        let cage = terms.iter().find(|t| t["term"].as_str().unwrap().starts_with("the cage"));
+        cage.unwrap()["cost"].as_str().unwrap().to_owned()
+    };
+    assert!(cost(5.0).starts_with("nothing here"), "{}", cost(5.0));
+    assert!(cost(-60.0).contains("`simulate` has the cage"), "{}", cost(-60.0));
+}

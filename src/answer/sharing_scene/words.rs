@@ -146,6 +146,22 @@ impl SharingSceneAnswer<'_> {
         ))
     }
 
+    /// What a driven cage does in overrun; `None`: there is none.
+    fn cage_drives(&self) -> Option<LeftOut> {
+        self.design.clutch.cage?;
+        let stays = |i: &usize| self.course(*i).is_none_or(|c| c.open_s == 0.0 && c.path_m == [0.0; 2]);
+        let moved = (0..self.found.sprags.len()).filter(|i| !stays(i)).count();
+        let cost = match moved {
+            0 => "nothing here: none slides or loses contact".to_owned(),
+            n => format!("not known: {n} slide or lose contact here; `simulate` has the cage"),
+        };
+        Some(LeftOut::new(
+            "the cage that carries the sprags in overrun",
+            "in overrun they ride with the outer race; a scene that begins in overrun is refused",
+            &cost,
+        ))
+    }
+
     pub(super) fn left_out(&self) -> Vec<LeftOut> {
         let mut instead = vec![
             self.bending_left_out(),
@@ -168,6 +184,7 @@ impl SharingSceneAnswer<'_> {
             ));
         }
         instead.extend(self.inner_track_leans());
+        instead.extend(self.cage_drives());
         one_by_one(self.design, instead)
     }
 
