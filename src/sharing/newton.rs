@@ -147,7 +147,7 @@ impl Unlike<'_> {
     /// Newton's method from `x`.
     fn solved(&self, x: &DVector<f64>, case: BalanceCase) -> Result<(DVector<f64>, Shared), NotShared> {
         let mut x = x.clone();
-        let mut statics: Vec<Statics> = vec![self.statics().clone(); self.sprags.len()];
+        let mut statics = vec![(self.statics().clone(), 0); self.sprags.len()];
         let mut trial = self.trial(&mut statics, &x, case)?;
         let mut steps = 0;
         for step in 0..STEPS {
@@ -252,9 +252,10 @@ impl Unlike<'_> {
         Ok((x, NewtonScales { windup_rad, torque_nm, normal_n, shift_m: windup_rad * torque_nm / normal_n }))
     }
 
+    /// `statics`: each sprag's own, and the arc that its contact was on in the trial before.
     fn trial(
         &self,
-        statics: &mut [Statics],
+        statics: &mut [(Statics, usize)],
         x: &DVector<f64>,
         case: BalanceCase,
     ) -> Result<Trial, NotShared> {
@@ -296,7 +297,7 @@ impl Unlike<'_> {
             };
             let borne = match unloaded.filter(|_| normal == 0.0) {
                 Some(known) => known,
-                None => self.statics().borne(normal).ok_or(NotShared::NoBalance)?,
+                None => self.statics().borne_near(normal, statics[i].1).ok_or(NotShared::NoBalance)?,
             };
             if normal == 0.0 {
                 unloaded = Some(borne);
@@ -318,15 +319,11 @@ impl Unlike<'_> {
             let [inner_m, outer_m] = [bent_m[0] + made_m[0], bent_m[1] + made_m[1]];
             let offset_m = self.offset_at(i, axis_m);
             let size_m = self.sprags[i].size_m;
-            statics[i].set_apart(SpragDeviation {
-                size_m,
-                inner_m,
-                outer_m,
-                offset_m,
-                carrier: self.carrier,
-            });
+            let (own, arc) = &mut statics[i];
+            own.set_apart(SpragDeviation { size_m, inner_m, outer_m, offset_m, carrier: self.carrier });
             let load = &mut t.shared.loads[i];
-            let b = statics[i].borne(load.normal_inner_n).ok_or(NotShared::NoBalance)?;
+            let b = own.borne_near(load.normal_inner_n, *arc).ok_or(NotShared::NoBalance)?;
+            *arc = b.arc;
             let (c, Some(alike)) = (b.closure, &alike[i]) else { continue };
             t.miss[i] =
                 (load.own_rad + b.rolled.v - alike.rolled.v - windup_rad - self.start_rad[i] - along_rad)

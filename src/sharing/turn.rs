@@ -50,32 +50,37 @@ impl<'a> Turn<'a> {
     /// # Errors
     /// The [`NotShared`] of the first place that does not carry it.
     pub fn at(&self, torque_nm: f64) -> Result<Vec<Shared>, NotShared> {
-        let places = (0..self.places.len()).into_par_iter();
-        let found: Vec<_> = places.map(|k| self.carrying(k, torque_nm)).collect();
-        found.into_iter().collect()
+        self.each(torque_nm).into_iter().collect()
+    }
+
+    fn each(&self, torque_nm: f64) -> Vec<Result<Shared, NotShared>> {
+        (0..self.places.len()).into_par_iter().map(|k| self.carrying(k, torque_nm)).collect()
     }
 
     /// At `torque_nm` at one place.
-    fn carrying(&self, k: usize, torque_nm: f64) -> Result<Shared, NotShared> {
-        let (clutch, turned) = &self.places[k];
+    fn carrying(&self, place: usize, torque_nm: f64) -> Result<Shared, NotShared> {
+        let (clutch, turned) = &self.places[place];
         clutch.carrying(Asked::Torque(torque_nm), *turned)
     }
 
-    /// Torque, N m, up to `beyond_nm` that is carried at every place, to 1e-7 of that, and what ends it; `None`: all of it.
+    /// Torque, N m, up to `beyond_nm` that is carried at every place, to 1e-7 of that, and what ends it; `None`: all of it. A place that
+    /// carries a torque is taken to carry every smaller one: the end of one place is asked of the others.
     pub fn end(&self, beyond_nm: f64) -> Option<(f64, NotShared)> {
-        let why = self.at(beyond_nm).err()?;
-        let (mut held, mut beyond) = (0.0, beyond_nm);
-        // The place that ended the torque before is asked first: one that does not carry it is enough.
-        let mut ended = 0;
-        for _ in 0..HALVINGS {
-            let torque = 0.5 * (held + beyond);
-            let ends = |k: &usize| self.carrying(*k, torque).is_err();
-            let others = || (0..self.places.len()).into_par_iter().filter(|k| *k != ended).find_any(ends);
-            match Some(ended).filter(ends).or_else(others) {
-                Some(k) => (beyond, ended) = (torque, k),
-                None => held = torque,
+        let why = |(place, found): (usize, &Result<Shared, NotShared>)| Some((place, *found.as_ref().err()?));
+        let (mut place, why) = self.each(beyond_nm).iter().enumerate().find_map(why)?;
+        let fails = |place: usize, torque: f64| self.carrying(place, torque).is_err();
+        let mut missed = beyond_nm;
+        loop {
+            let (mut held, mut beyond) = (0.0, beyond_nm);
+            for _ in 0..HALVINGS {
+                let torque = 0.5 * (held + beyond);
+                *(if torque >= missed || fails(place, torque) { &mut beyond } else { &mut held }) = torque;
+            }
+            let others = (0..self.places.len()).into_par_iter().filter(|other| held > 0.0 && *other != place);
+            match others.find_first(|other| fails(*other, held)) {
+                Some(other) => (place, missed) = (other, held),
+                None => return Some((held, self.at(beyond).err().unwrap_or(why))),
             }
         }
-        Some((held, self.at(beyond).err().unwrap_or(why)))
     }
 }

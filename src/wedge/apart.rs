@@ -11,6 +11,9 @@ use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use crate::clutch::Carrier;
 use crate::numeric::dual::Dual;
 
+/// How far from the ends of its arc a contact is well within it, rad: far beyond rounding.
+const WITHIN_RAD: f64 = 1e-9;
+
 /// What sets one sprag apart; all 0: nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpragDeviation {
@@ -54,19 +57,31 @@ impl Statics {
     /// The sprag at inner normal force `n_bi`, N, at rest, on the arc to which its contact has turned; `None` where there
     /// is no equilibrium: it has rolled over, or never stood between the tracks.
     pub fn borne(&self, n_bi: f64) -> Option<Borne> {
+        self.borne_near(n_bi, 0)
+    }
+
+    /// The same, looked for first on arc `near`, and from the first one on where the contact is not well within it.
+    pub(crate) fn borne_near(&self, n_bi: f64, near: usize) -> Option<Borne> {
         let n_bi = n_bi.max(FIRST_CONTACT_N);
         let arcs = &self.profile.arcs;
-        let mut arc = 0;
-        let mut found = None;
-        // Laws are continuous over a junction to rounding: a turn on the edge of two arcs is taken as it comes.
-        for _ in 0..=arcs.len() {
+        let on = |arc: usize| {
             let closure = self.closure(arc, n_bi, 0.0, 0.0).ok()?;
-            let turn_rad = closure.turn_rad(self.profile.beta0_rad);
-            found = Some((arc, closure, turn_rad));
-            if turn_rad >= arcs[arc].until_rad && arc + 1 < arcs.len() {
-                arc += 1;
-            } else {
-                break;
+            Some((arc, closure, closure.turn_rad(self.profile.beta0_rad)))
+        };
+        let within = |(arc, _, turn_rad): &(usize, Closure, f64)| {
+            let ends = arc + 1 < arcs.len() && *turn_rad > arcs[*arc].until_rad - WITHIN_RAD;
+            *turn_rad > arcs[*arc].from_rad + WITHIN_RAD && !ends
+        };
+        let mut found = Some(near).filter(|arc| (1..arcs.len()).contains(arc)).and_then(on).filter(within);
+        if found.is_none() {
+            // Laws are continuous over a junction to rounding: a turn on the edge of two arcs is taken as it comes.
+            for arc in 0..arcs.len() {
+                let here = on(arc)?;
+                let beyond = here.2 >= arcs[arc].until_rad;
+                found = Some(here);
+                if !beyond {
+                    break;
+                }
             }
         }
         let (arc, closure, turn_rad) = found?;
