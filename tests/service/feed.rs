@@ -167,14 +167,14 @@ fn the_library_refuses_what_no_drive_does() {
 fn the_command_answers_and_refuses() {
     let feed = |args: &[&str]| run(&[&["feed", FILE], args].concat());
     let found =
-        feed(&["--stroke", "30", "--brake", "100", "--inertia", "0.02", "--frequency", "1,10", "--json"]);
+        feed(&["--stroke", "30", "--brake", "100", "--inertia", "0.02", "--frequency", "4,10", "--json"]);
     assert_eq!(found.status.code(), Some(1));
     let answer = json(&found);
     assert!(answer["design_hash"].is_string() && answer["left_out"].is_array());
     assert_eq!(answer["frequencies"][0]["held"], true);
     assert_eq!(answer["frequencies"][1]["held"], false);
     let limit_hz = answer["limit_hz"].as_f64().unwrap();
-    assert!(limit_hz > 1.0 && limit_hz < 10.0, "{limit_hz}");
+    assert!(limit_hz > 4.0 && limit_hz < 10.0, "{limit_hz}");
     let said = answer["verdict"].as_str().unwrap();
     assert!(said.contains("first fails beyond") && !said.contains("as it should"), "{said}");
     // What was found, and what is allowed.
@@ -228,7 +228,7 @@ fn a_loss_between_frequencies_that_are_held_is_found() {
     );
     assert!(answer.page(&Provenance::default()).to_html().contains("class=\"verdict mixed\""));
     // Where nothing is lost that is said too, and of a single frequency that it is alone.
-    let wide = ask(&[1.0, 2.0], 0.1);
+    let wide = ask(&[2.0, 4.0], 0.1);
     let words = Answer::verdict(&wide);
     // ln 2/ln 1.06 is 11.9: eleven between.
     assert!(
@@ -245,7 +245,7 @@ fn strokes_that_do_not_feed_say_a_next_step() {
     let ask = |more: &[&str]| {
         stdout(&run(&[&["feed", "designs/indexing.toml", "--stroke", "30", "--quiet"][..], more].concat()))
     };
-    let fast = ask(&["--brake", "100", "--inertia", "0.02", "--frequency", "1,5,50"]);
+    let fast = ask(&["--brake", "100", "--inertia", "0.02", "--frequency", "4,5,50"]);
     assert!(fast.contains("NOT HELD") && fast.contains("Next: strokes up to"), "{fast}");
     // Beyond the frequency at which the fed race runs on: brake or inertia that would stop it, by the square of the frequency.
     let runs_on = ask(&["--brake", "100", "--inertia", "0.02", "--frequency", "50"]);

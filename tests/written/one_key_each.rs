@@ -58,7 +58,7 @@ const ASKED: [&[&str]; 20] = [
         "--inertia",
         "0.02",
         "--frequency",
-        "1,2",
+        "2",
     ],
     &["resonance", MULTI, "--scenario", "high-6"],
     &["overrun", "designs/lubricated.toml", "--speeds", "300,1000"],
