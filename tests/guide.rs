@@ -119,32 +119,38 @@ fn run(args: &str, input: &str, here: &Path) -> Output {
     child.wait_with_output().unwrap()
 }
 
-/// What a command prints, and name and text of the file that it makes.
-type Made = (Output, Option<(String, Vec<u8>)>);
+/// Files of a folder, by name.
+type Files = BTreeMap<String, Vec<u8>>;
 
-/// A command that reads no file, run once: many pages begin with the same.
-fn made(args: &str) -> Made {
-    static MADE: Mutex<BTreeMap<String, Arc<OnceLock<Made>>>> = Mutex::new(BTreeMap::new());
-    let once = MADE.lock().unwrap().entry(args.to_owned()).or_default().clone();
-    let making = || {
-        let folder = program::Folder::new();
-        let out = run(args, "", Path::new(&folder.path("")));
-        let name = folder.names().pop();
-        (out, name.map(|name| (name.clone(), std::fs::read(folder.path(&name)).unwrap())))
-    };
-    once.get_or_init(making).clone()
+fn files(folder: &Path) -> Files {
+    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
+    paths.filter(|path| path.is_file()).map(|path| (name(&path), std::fs::read(path).unwrap())).collect()
 }
 
-/// `run`; what `new` makes is made once for all pages that have no such file yet.
+/// A command, its input, the files that it names.
+type Asked = (String, String, Files);
+/// What it prints, the files that it writes.
+type Made = (Output, Files);
+
+/// `run`, once for all pages that ask the same of the same files: many begin alike.
 fn answered(args: &str, input: &str, here: &Path) -> Output {
-    if args.starts_with("new ") {
-        let (out, file) = made(args);
-        if let Some((name, text)) = file.filter(|(name, _)| !here.join(name).exists()) {
-            std::fs::write(here.join(name), text).unwrap();
-            return out;
-        }
+    static MADE: Mutex<BTreeMap<Asked, Arc<OnceLock<Made>>>> = Mutex::new(BTreeMap::new());
+    let read = |name: String| std::fs::read(here.join(&name)).ok().map(|bytes| (name, bytes));
+    let asked = (args.to_owned(), input.to_owned(), words(args).into_iter().filter_map(read).collect());
+    let once = MADE.lock().unwrap().entry(asked).or_default().clone();
+    let making = || {
+        let before = files(here);
+        let out = run(args, input, here);
+        let mut written = files(here);
+        written.retain(|name, bytes| before.get(name) != Some(bytes));
+        (out, written)
+    };
+    let (out, written) = once.get_or_init(making);
+    for (name, bytes) in written {
+        std::fs::write(here.join(name), bytes).unwrap();
     }
-    run(args, input, here)
+    out.clone()
 }
 
 fn copied(from: &Path, to: &Path) {
