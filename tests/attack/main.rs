@@ -28,7 +28,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Cases of the short run: every command has answers among them.
-const SHORT: [std::ops::Range<u64>; 2] = [0..150, 100_000..100_031];
+const SHORT: [std::ops::Range<u64>; 2] = [0..105, 100_000..100_031];
 
 #[test]
 fn whole_commands_keep_their_promises() {

@@ -233,13 +233,3 @@ fn rounding_is_no_growth() {
     let all = csv.lines().filter(|line| line.starts_with("inner,")).count();
     assert!(all > 25 && (2..10).contains(&shown), "{shown} of {all}");
 }
-
-/// At the speed of a limit a clutch does not stay for long: what grows slowly there is a note of one line.
-#[test]
-fn slow_growth_at_the_speed_of_a_limit_is_harmless() {
-    let text = stdout(&run(&["check", "designs/starter.toml", "--quiet"]));
-    let note =
-        text.lines().find(|l| l.starts_with("Note: at 250 rpm of the outer race (keep_contact_to_rpm)"));
-    assert!(note.is_some_and(|l| l.contains("tenfold in 7.7 s: harmless")), "{text}");
-    assert!(!text.contains("Warning: steady"), "{text}");
-}

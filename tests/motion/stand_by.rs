@@ -5,6 +5,7 @@ use sprag_design::design::Design;
 use sprag_design::fidelity::{self, Terms};
 use sprag_design::scenario::{Settings, Simulation, Verdict, simulate};
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// The paper's clutch, its inner race 100 rpm ahead, dragged by 0.5 Nm for `seconds`, then driven by 10 Nm within 20 ms; what
 /// acts afterwards is `more`.
@@ -27,6 +28,14 @@ fn standing_by(seconds: f64, friction: f64, more: &[[f64; 2]]) -> Scenario {
     scene
 }
 
+fn settings(friction: f64) -> Settings {
+    Settings { samples: 300, energy: friction > 0.11, ..Settings::default() }
+}
+
+/// A second of stand-by with the friction of the paper.
+static ONE_SECOND: LazyLock<Simulation> =
+    LazyLock::new(|| simulate(&standing_by(1.0, 0.12, &[]), &settings(0.12)).unwrap());
+
 fn tells(s: &Simulation) -> String {
     format!(
         "{:?} at {:?}, {:?}, {} steps, {:?}",
@@ -42,10 +51,13 @@ fn tells(s: &Simulation) -> String {
 /// Friction that does not fall with speed lets them swing on as they began; that is run.
 #[test]
 fn swings_that_repeat_are_added_and_not_run() {
-    for (friction, repeats) in [(0.12, true), (0.11, true), (0.09, false)] {
-        let scene = standing_by(0.7, friction, &[]);
-        let settings = Settings { samples: 300, energy: friction > 0.11, ..Settings::default() };
-        let jumped = simulate(&scene, &settings).unwrap();
+    for (seconds, friction, repeats) in [(1.0, 0.12, true), (0.7, 0.09, false)] {
+        let scene = standing_by(seconds, friction, &[]);
+        let settings = settings(friction);
+        let jumped = match repeats {
+            true => ONE_SECOND.clone(),
+            false => simulate(&scene, &settings).unwrap(),
+        };
         let whole = simulate(&scene, &Settings { every_period: true, ..settings.clone() }).unwrap();
         println!("{friction}: {}\n   {}", tells(&jumped), tells(&whole));
         assert_eq!(jumped.jumps.is_empty(), !repeats, "{friction}");
@@ -77,12 +89,12 @@ fn swings_that_repeat_are_added_and_not_run() {
 /// figures of the engagement are those after any other stand-by.
 #[test]
 fn minutes_of_stand_by_cost_what_seconds_cost() {
-    let short = simulate(&standing_by(1.0, 0.12, &[]), &Settings::default()).unwrap();
+    let short = &*ONE_SECOND;
     let seconds = 600.0;
     let planned = fidelity::simulate(&standing_by(seconds, 0.12, &[]), &Settings::default(), Terms::Felt);
     let long = planned.as_ref().unwrap();
     let s = &long.simulation;
-    println!("{seconds}: {}\n   {}", tells(s), tells(&short));
+    println!("{seconds}: {}\n   {}", tells(s), tells(short));
     assert!(s.steps < 6 * short.steps, "{} and {}", s.steps, short.steps);
     assert!(s.engaged.unwrap().t_s > seconds && s.verdict == Some(Verdict::Sticks));
     assert!(long.left_out.iter().any(|t| t.term == "whole periods that repeat"));

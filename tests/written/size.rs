@@ -3,11 +3,15 @@
 use crate::program::*;
 
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
+use sprag_design::Follow;
+use sprag_design::answer::Answer;
 use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::Design;
 use sprag_design::margin::{Capacities, load_margins, load_state, margins};
 use sprag_design::material::steel;
+use sprag_design::report::Screen;
 use sprag_design::scenario::{Settings, Verdict, prepare, simulate};
 use sprag_design::size::{
     Decider, NoSize, PURPOSES, Requirements, Sized, Tried, WARMER_K, Wish, WouldDo, purpose, size,
@@ -48,11 +52,19 @@ const GRID: [(f64, f64, f64, f64, f64); 9] = [
     (60.0, 1500.0, 0.0, 1.5, 0.06),
 ];
 
+/// One of them, sized once for all tests.
+fn of_grid(k: usize) -> &'static Sized {
+    static SIZED: [OnceLock<Sized>; GRID.len()] = [const { OnceLock::new() }; GRID.len()];
+    let (bore, torque, rpm, safety, friction) = GRID[k];
+    let ask = ask(bore, torque, rpm, safety, friction);
+    SIZED[k].get_or_init(|| sized(&ask).unwrap_or_else(|why| panic!("{ask:?}: {why}")))
+}
+
 #[test]
 fn every_size_of_the_grid_holds_its_own_file() {
-    for (bore, torque, rpm, safety, friction) in GRID {
+    for (k, (bore, torque, rpm, safety, friction)) in GRID.into_iter().enumerate() {
         let ask = ask(bore, torque, rpm, safety, friction);
-        let sized = sized(&ask).unwrap_or_else(|why| panic!("{ask:?}: {why}"));
+        let sized = of_grid(k);
         // Read anew from the text alone.
         let design = Design::parse(&sized.made.design.source, "again.toml").unwrap();
         let rows = margins(&design, &design.check_scenarios, &Settings::default()).unwrap();
@@ -83,9 +95,10 @@ fn every_size_of_the_grid_holds_its_own_file() {
 #[test]
 fn a_first_design_is_a_clutch_while_one_race_is_warmer() {
     let helicopter = Wish { purpose: purpose("helicopter"), peak_nm: Some(1400.0), ..wish(46.0, 620.0) };
-    let large = ask(300.0, 60_000.0, 100.0, 1.5, 0.13);
-    for wanted in [helicopter.requirements(), ask(40.0, 300.0, 0.0, 2.0, 0.11), large] {
-        let design = sized(&wanted).unwrap().made.design;
+    let helicopter = sized(&helicopter.requirements()).unwrap();
+    // A small one for twice its torque, a large one.
+    for sized in [&helicopter, of_grid(1), of_grid(7)] {
+        let (design, name) = (&sized.made.design, &sized.made.design.name);
         assert!(design.source.contains(&format!("one is {WARMER_K} K warmer than the other (choice)")));
         for (inner_c, outer_c) in [(60.0 + WARMER_K, 60.0), (60.0, 60.0 + WARMER_K), (120.0, 60.0)] {
             let values = [
@@ -93,12 +106,11 @@ fn a_first_design_is_a_clutch_while_one_race_is_warmer() {
                 ("thermal.sprags_c", 0.5 * (inner_c + outer_c)),
                 ("thermal.outer_race_c", outer_c),
             ];
-            let warm =
-                design.with_values(&values).unwrap_or_else(|why| panic!("{wanted:?} {values:?}: {why}"));
+            let warm = design.with_values(&values).unwrap_or_else(|why| panic!("{name} {values:?}: {why}"));
             let state = load_state(&warm).unwrap();
             let rows = load_margins(&warm, &warm.limits, Capacities::LeftOut, &state);
             let end = rows.iter().find(|r| r.code() == "end-of-profile").unwrap();
-            assert!(end.held(), "{wanted:?} {values:?}: {end:?}");
+            assert!(end.held(), "{name} {values:?}: {end:?}");
         }
     }
 }
@@ -327,6 +339,16 @@ fn the_damping_of_a_new_clutch_is_a_small_part_of_its_drag() {
     }
 }
 
+/// On a terminal of 80 columns each limit is one line, its verdict too.
+fn fits_80_columns(design: &Design) {
+    let found = design.check(&Follow::nobody()).unwrap();
+    let text = found.text(Screen { colour: false, columns: Some(80) });
+    assert_eq!(text.matches("Verdict").count(), 1, "{text}");
+    let table = text.lines().skip(1).take_while(|line| !line.contains("HELD: "));
+    let widest = table.map(|line| line.chars().count()).max();
+    assert!((60..=80).contains(&widest.unwrap()), "{widest:?} {text}");
+}
+
 #[test]
 fn every_purpose_gives_a_file_that_is_held_and_tells_its_guesses() {
     let folder = Folder::new();
@@ -343,6 +365,9 @@ fn every_purpose_gives_a_file_that_is_held_and_tells_its_guesses() {
             design.source
         );
         assert_eq!(design.check_scenarios.contains(&"swing".to_owned()), purpose.excitation.is_some());
+        if ["two-speed", "starter"].contains(&purpose.name) {
+            fits_80_columns(&design);
+        }
     }
 }
 
