@@ -75,9 +75,9 @@ impl Statics {
         let mut found = Some(near).filter(|arc| (1..arcs.len()).contains(arc)).and_then(on).filter(within);
         if found.is_none() {
             // Laws are continuous over a junction to rounding: a turn on the edge of two arcs is taken as it comes.
-            for arc in 0..arcs.len() {
+            for (arc, ends) in arcs.iter().enumerate() {
                 let here = on(arc)?;
-                let beyond = here.2 >= arcs[arc].until_rad;
+                let beyond = here.2 >= ends.until_rad;
                 found = Some(here);
                 if !beyond {
                     break;
