@@ -68,4 +68,6 @@ def main(path: str, quick: bool) -> None:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit("usage: python with_openmdao.py DESIGN.toml [--quick]")
     main(sys.argv[1], "--quick" in sys.argv)

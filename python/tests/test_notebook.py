@@ -82,3 +82,8 @@ def test_an_answer_prints_in_a_line(design: sd.Design) -> None:
         assert repr(answer).startswith(f"<{type(answer).__name__}")
     check = design.check()
     assert check.verdict in str(check) and "margins" in str(check)
+
+
+def test_a_problem_says_whose_it_is_and_what_it_varies(design: sd.Design) -> None:
+    said = repr(design.problem())
+    assert said.startswith(f"<Problem of {design.name!r}: slip-margin; ") and "r_i2_mm" in said

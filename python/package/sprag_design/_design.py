@@ -470,6 +470,10 @@ class Problem:
         self.variables: tuple[Variable, ...] = tuple(_object(Variable, v) for v in about["variables"])
         """The variables in the order of the vector."""
 
+    def __repr__(self) -> str:
+        names = ", ".join(v.name for v in self.variables)
+        return f"<Problem of {self.design.name!r}: {self.aim}; {names}>"
+
     @property
     def bounds(self) -> list[tuple[float, float]]:
         """Least and greatest value of each variable, as scipy takes them."""
