@@ -85,7 +85,7 @@ pub fn draw_sheet(page: &mut Page, design: &Design, whose: &str) {
     let rest = pose_at_rest("first contact, no load", design, &profile);
     let svg = drawing(design, vec![rest]).sheet_figure([r.width_m, s.length_m], &notes);
     let said = "Radii as run; inner, outer: the tracks. ν, ω: angles of the strut AB to the radii at B and A; junctions \
-        by the turn of the contact; races as plain rings.";
+        1|2 … and the end by the turn of the contact; lengths in mm; races as plain rings.";
     page.true_figure(&svg, &if whose.is_empty() { said.to_owned() } else { format!("{whose}. {said}") });
 }
 

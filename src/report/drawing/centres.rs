@@ -61,7 +61,8 @@ pub fn svg(drawing: &Drawing, on_phone: bool) -> String {
         points.extend(named(pose, index, poses.len() > 1));
     }
     let text = |point: &Named| {
-        let [mx, my] = point.at_m.map(|v| Unit::Millimetre.from_si(v));
+        // No minus before a zero.
+        let [mx, my] = point.at_m.map(|v| (1e4 * Unit::Millimetre.from_si(v)).round() / 1e4 + 0.0);
         format!("{} ({mx:.4}, {my:.4}) mm", point.name).replace('-', "\u{2212}")
     };
     let beside = |point: &Named| if on_phone { point.name.clone() } else { text(point) };
@@ -92,7 +93,8 @@ pub fn svg(drawing: &Drawing, on_phone: bool) -> String {
     let origin = px([0.0, 0.0]);
     svg.line([8.0, origin[1]], [picture, origin[1]], &rule);
     svg.line([origin[0], 8.0], [origin[0], HEIGHT - 8.0], &rule);
-    svg.text([picture - 4.0, origin[1] - 5.0], Anchor::End, SOFT, "x");
+    // Where no leader runs: these all go to the right.
+    svg.text([4.0, origin[1] - 5.0], Anchor::Start, SOFT, "x →");
     svg.text([origin[0] + 6.0, 16.0], Anchor::Start, SOFT, "y, radially outward");
     let wanted: Vec<f64> = points.iter().map(|p| px(p.at_m)[1] + 4.0).collect();
     let x = picture + BESIDE;

@@ -21,6 +21,8 @@ pub(super) struct View {
     size: [f64; 2],
     /// Widths of the label columns left and right, px.
     columns: [f64; 2],
+    /// Labels as a drawing has them: lengths in mm that do not say so, junctions and ends without their word.
+    terse: bool,
 }
 
 impl View {
@@ -44,7 +46,22 @@ impl View {
         let wide = (right - left).max(0.5 * gap) * 1.15;
         let scale = (size[1] / high).min((size[0] - columns[0] - columns[1]) / wide);
         let middle_m = [(left + right) / 2.0, (low + top) / 2.0];
-        (scale.is_finite() && scale > 0.0).then_some(Self { scale, middle_m, size, columns })
+        (scale.is_finite() && scale > 0.0).then_some(Self { scale, middle_m, size, columns, terse: false })
+    }
+
+    /// The same with terse labels of `pose`, in columns no wider than these.
+    pub(super) fn terse(drawing: &Drawing, pose: &SpragPose, size: [f64; 2]) -> Option<Self> {
+        let view = |columns| Some(Self { terse: true, ..Self::of(drawing, &[pose], size, columns)? });
+        let notes = draw_points(&mut Svg::new(size[0], size[1], ""), &view([0.0; 2])?, pose);
+        let widest = |left: bool| {
+            let widths = notes.iter().filter(|n| n.left == left).map(|n| text_width(&n.text, 12.0));
+            widths.fold(0.0, f64::max) + 16.0
+        };
+        view([widest(true), widest(false)])
+    }
+
+    fn length(&self, m: f64) -> String {
+        if self.terse { plain(Unit::Millimetre.from_si(m), 6) } else { Unit::Millimetre.show_plain(m, 6) }
     }
 
     pub(super) fn px(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -102,11 +119,17 @@ pub(super) fn draw_sprags(svg: &mut Svg, view: &View, first: &SpragPose, others:
     for (index, pose) in others.iter().enumerate() {
         svg.path(&outline(pose), &overlay_style(index));
     }
-    let mut notes = Vec::new();
-    draw_strut(svg, view, first, &mut notes);
-    draw_profile(svg, view, first, &mut notes);
-    draw_centres(svg, view, first, &mut notes);
+    let notes = draw_points(svg, view, first);
     draw_notes(svg, view, &notes);
+}
+
+/// What the labels name, and the labels.
+fn draw_points(svg: &mut Svg, view: &View, pose: &SpragPose) -> Vec<Note> {
+    let mut notes = Vec::new();
+    draw_strut(svg, view, pose, &mut notes);
+    draw_profile(svg, view, pose, &mut notes);
+    draw_centres(svg, view, pose, &mut notes);
+    notes
 }
 
 fn overlay_style(index: usize) -> String {
@@ -184,15 +207,17 @@ fn draw_profile(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
     let mut ticks: Vec<(&DrawnArc, f64, String)> = Vec::new();
     for (k, arc) in pose.arcs.iter().enumerate() {
         if k == 0 {
-            ticks.push((arc, arc.from_rad, "first contact at rest".to_owned()));
+            let name = if view.terse { "first contact" } else { "first contact at rest" };
+            ticks.push((arc, arc.from_rad, name.to_owned()));
         }
         if k + 1 < pose.arcs.len() && pose.within_spiral(k + 1) {
             continue;
         }
-        let name = if k + 1 < pose.arcs.len() {
-            format!("junction {}|{}", k + 1, k + 2)
-        } else {
-            "end of profile".into()
+        let name = match (k + 1 < pose.arcs.len(), view.terse) {
+            (true, true) => format!("{}|{}", k + 1, k + 2),
+            (true, false) => format!("junction {}|{}", k + 1, k + 2),
+            (false, true) => "end".to_owned(),
+            (false, false) => "end of profile".to_owned(),
         };
         ticks.push((arc, arc.until_rad, format!("{name}, {} rad", plain(arc.until_rad, 4))));
     }
@@ -218,7 +243,7 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
     cross(ce, EDGE);
     notes.push(Note {
         at: ce,
-        text: format!("Cₑ, rₑ {}", Unit::Millimetre.show_plain(pose.outer_radius_m, 6)),
+        text: format!("Cₑ, rₑ {}", view.length(pose.outer_radius_m)),
         left: false,
         wanted: ce[1],
     });
@@ -228,12 +253,8 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
         if pose.within_spiral(k) && k + 1 < pose.arcs.len() {
             continue;
         }
-        let text = format!(
-            "{}, {} {}",
-            subscript("C", k + 1),
-            subscript("rᵢ", k + 1),
-            Unit::Millimetre.show_plain(arc.radius_m, 6)
-        );
+        let text =
+            format!("{}, {} {}", subscript("C", k + 1), subscript("rᵢ", k + 1), view.length(arc.radius_m));
         notes.push(Note { at, text, left: false, wanted: at[1] });
     }
     if let Some(spiral) = pose.spiral {

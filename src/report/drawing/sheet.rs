@@ -11,9 +11,6 @@ const WIDTH: f64 = 680.0;
 const HEIGHT: f64 = 440.0;
 /// Where the enlarged sprag begins, beside the front view.
 const SPLIT: f64 = 292.0;
-/// Room for the sprag between its labels, px, and the part of the rest that those on the left have.
-const MIDDLE: f64 = 108.0;
-const LEFT: f64 = 0.59;
 /// Largest diameter of the front view.
 const WIDEST: f64 = 222.0;
 /// Pixels of a page per metre of paper: 96 an inch.
@@ -197,8 +194,7 @@ fn centre_line(svg: &mut Svg, from: [f64; 2], to: [f64; 2]) {
 /// which it ends.
 fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f64; 2], width: f64) -> f64 {
     let size = [width, HEIGHT - 62.0];
-    let columns = [LEFT, 1.0 - LEFT].map(|part| part * (width - MIDDLE));
-    let Some(mut view) = detail::View::of(drawing, &[pose], size, columns) else { return top };
+    let Some(mut view) = detail::View::terse(drawing, pose, size) else { return top };
     // The air beside the sprag in the other view is not needed here.
     let Some(scale) = scale_for(1.0, 1.15 * view.scale) else { return top };
     view.scale = scale * PAPER_PX_PER_M;

@@ -99,18 +99,22 @@ fn the_sheet_has_every_dimension_at_a_scale_that_it_states() {
         "⌀ 52.46 outside",
         "Clutch, scale 1:1",
         "no load, scale 5:1",
-        "rₑ 4.68 mm",
-        "rᵢ₁ 4.02 mm",
-        "rᵢ₃ 4.15 mm",
+        "rₑ 4.68<",
+        "rᵢ₁ 4.02<",
+        "rᵢ₃ 4.15<",
         "race gap 8.33 mm",
         "e₁ = C₁Cₑ 0.62 mm",
         "ω 4.",
         "ν 2.",
-        "junction 2|3, 0.12 rad",
+        ">2|3, 0.12 rad",
         "12 sprags",
     ] {
         assert!(svg.contains(word), "{word} in {svg}");
     }
+    // A sprag 5.8 mm wide fills the place, which labels at 5:1 leave it.
+    let mut wide = table_1(0.0);
+    wide.poses[0].outline_m.extend([[2.9e-3, 0.0], [-2.9e-3, 0.0]]);
+    assert!(wide.sheet_figure([6e-3, 6e-3], &[]).contains("no load, scale 5:1"));
     // An outside of 1049 mm.
     let large = Drawing { race_radii_m: table_1(0.0).race_radii_m.map(|r| 20.0 * r), ..table_1(0.0) };
     assert!(large.sheet_figure([0.1, 0.1], &[]).contains("Clutch, scale 1:20"));
