@@ -1,5 +1,5 @@
 // Pictures of pages and of the studio: node pictures.mjs FOLDER BINARY DESIGN PAGE.html ... Ends with 1 where a page is wider than its
-// window, a figure is wider than a phone or has letters below 11 px there, or where neither its answer nor the drawing is in the first screen. STUDIES: names of pages that show no one clutch.
+// window, a table is scrolled at 1280 px, a figure is wider than a phone or has letters below 11 px there, or where neither its answer nor the drawing is in the first screen. STUDIES: names of pages that show no one clutch.
 import { spawn } from "node:child_process";
 import path from "node:path";
 import { chromium } from "playwright-core";
@@ -24,6 +24,12 @@ function unfit() {
   return [...wide, ...small];
 }
 
+// Tables that are scrolled, by their first heading.
+function cut() {
+  const seen = [...document.querySelectorAll(".table")].filter((t) => t.checkVisibility());
+  return seen.filter((t) => t.scrollWidth > t.clientWidth).map((t) => t.querySelector("th")?.textContent ?? "");
+}
+
 async function look(name, address, ready) {
   for (const width of [1280, 390]) {
     const page = await browser.newPage({ viewport: { width, height: HEIGHT[width] } });
@@ -33,6 +39,7 @@ async function look(name, address, ready) {
     if (wide > width) say(`${name}: ${wide} px wide in a window of ${width}`);
     if (width === 390 && name !== "studio") for (const what of await page.evaluate(unfit)) say(`${name}: on a phone ${what}`);
     if (width === 1280 && name !== "studio") {
+      for (const what of await page.evaluate(cut)) say(`${name}: the table ${what} is cut`);
       const top = (pick) => page.evaluate((p) => document.querySelector(p)?.getBoundingClientRect().top ?? Infinity, pick);
       if ((await top(".verdict")) > 300) say(`${name}: no answer at the top`);
       // Half of the drawing at least.
