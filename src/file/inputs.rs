@@ -39,6 +39,9 @@ pub fn inputs(source: &str) -> Vec<Input> {
     out
 }
 
+/// Numbers from here on stand without the zero behind their point.
+const LONG: f64 = 1e5;
+
 /// Unit of the number at a dotted path, as printed; empty where it has none.
 pub fn unit_of_path(path: &str) -> &'static str {
     let key = path.rsplit('.').next().unwrap_or(path);
@@ -92,7 +95,11 @@ fn value(path: &str, value: &Value, out: &mut Vec<Input>) {
             let bare = other.as_str().map(str::to_owned);
             let text = bare.unwrap_or_else(|| other.clone().decorated("", "").to_string());
             // A list of texts or numbers may stand on several lines.
-            let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            let mut text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            // A long number is no easier to read for the zero behind its point.
+            if number.is_some_and(|n| n.abs() >= LONG) && text.ends_with(".0") {
+                text.truncate(text.len() - 2);
+            }
             let unit = if other.is_str() || other.is_bool() { "" } else { unit_of_path(path) };
             out.push(Input { path: path.to_owned(), unit, text, number });
         }
@@ -102,6 +109,14 @@ fn value(path: &str, value: &Value, out: &mut Vec<Input>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_numbers_stand_without_an_idle_zero() {
+        let all =
+            inputs("a = 200000000.0\nb = 2e8\nc = 600.0\nd = 9_990_000.0\ne = 100000.5\nf = \"9000000.0\"\n");
+        let texts: Vec<&str> = all.iter().map(|i| i.text.as_str()).collect();
+        assert_eq!(texts, ["200000000", "2e8", "600.0", "9_990_000", "100000.5", "9000000.0"]);
+    }
 
     #[test]
     fn every_value_comes_once_with_its_unit() {

@@ -41,6 +41,8 @@ async function newest(kind, work) {
 const complain = (error) => say(error.message || String(error), true);
 function say(text, bad = false) { $("work").textContent = text; $("work").style.color = bad ? "var(--bad)" : ""; }
 const escaped = (text) => { const span = document.createElement("span"); span.textContent = text; return span.innerHTML; };
+// Below a millionth of a degree a windup is what rounding leaves of a difference.
+const degrees = (rad) => { const deg = (rad * 180) / Math.PI; return (Math.abs(deg) < 1e-6 ? "0" : short(deg)) + "°"; };
 const short = (x, digits = 4) => (x === 0 ? "0" : Number(x.toPrecision(digits)).toString());
 
 /* Looks ------------------------------------------------------------------------------------------------------------ */
@@ -324,7 +326,7 @@ function pose() {
     $("now").textContent = `${short(torque, 4)} Nm`;
   }
   draw(here, forces, slips, relative, largest);
-  const read = [["N inner", short(forces[0]) + " N"], ["T inner", short(forces[1]) + " N"], ["T/N inner", slips[0] === 3 ? "cage" : forces[0] > 0 ? short(forces[1] / forces[0]) : "open"], ["windup", short((-relative * 180) / Math.PI) + "°"]];
+  const read = [["N inner", short(forces[0]) + " N"], ["T inner", short(forces[1]) + " N"], ["T/N inner", slips[0] === 3 ? "cage" : forces[0] > 0 ? short(forces[1] / forces[0]) : "open"], ["windup", degrees(-relative)]];
   if (!scene) read.push(["Hertz inner", short(here.hertz_inner_pa / 1e6) + " MPa"]);
   $("readings").innerHTML = read.map(([k, v]) => `<div><dt>${k}</dt><dd>${v}</dd></div>`).join("");
 }
