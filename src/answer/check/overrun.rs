@@ -1,7 +1,7 @@
 //! Overrun in the margin check: words, JSON, table.
 
 use crate::answer::overrun::{SHOWN_LATER, usual_speeds_rad_s};
-use crate::design::{Design, Limits};
+use crate::design::{Design, Limits, rad_s};
 use crate::dynamics::CageFacts;
 use crate::file::inputs;
 use crate::follow::Follow;
@@ -15,6 +15,23 @@ use serde::Serialize;
 /// Speed of the tracks beyond which nobody runs such a clutch, m/s: a choice that ends the plots where the sprags
 /// never lift off.
 const FASTEST_M_S: f64 = 50.0;
+
+/// Lift-off is drawn up to this multiple of the largest speed that the file names: a choice.
+const FAR: f64 = 3.0;
+/// What is drawn beyond the largest speed of interest, as a multiple of it.
+const ROOM: f64 = 1.5;
+
+/// How far a page draws overrun, rpm: the speeds that the file names, with room, and lift-off where it is not far away; else all.
+pub(super) fn drawn_to_rpm(
+    named: &[NamedOverrun],
+    lift_off_rpm: Option<f64>,
+    wanted_rpm: Option<f64>,
+) -> f64 {
+    let named = named.iter().flat_map(|n| [n.outer_rpm, n.inner_rpm]).map(f64::abs);
+    let named = named.chain(wanted_rpm).fold(0.0, f64::max);
+    let near = lift_off_rpm.filter(|off| *off <= FAR * named).unwrap_or(0.0);
+    if named > 0.0 { ROOM * named.max(near) } else { f64::INFINITY }
+}
 
 /// How far the curve goes, rad/s: beyond lift-off and the speed up to which contact is wanted.
 fn up_to_rad_s(limits: &Limits, lift_off_rad_s: Option<f64>, track_m: f64) -> f64 {
@@ -35,9 +52,18 @@ impl Design {
     ) -> Result<(OverrunSection, Option<f64>), NoCurve> {
         let lift_off_rad_s = lift_off_rad_s(self, state, LIFT_OFF_TO_RAD_S);
         let up_to = up_to_rad_s(&self.limits, lift_off_rad_s, self.clutch.races.outer_radius_m);
-        let course = curve(self, state, up_to, lift_off_rad_s, follow)?;
+        let named = named(self, state);
+        let mut course = curve(self, state, up_to, lift_off_rad_s, follow)?;
+        // What is drawn of a long curve is a curve of its own.
+        let rpm = |rad_s: Option<f64>| rad_s.map(|w| Unit::Rpm.from_si(w));
+        let drawn = rad_s(drawn_to_rpm(&named, rpm(lift_off_rad_s), rpm(self.limits.keep_contact_to_rad_s)));
+        if drawn < 0.5 * up_to {
+            let near = overrun_curve(self, state, drawn, follow)?;
+            near.outer_race.into_iter().for_each(|point| insert(&mut course.outer_race, point));
+            near.inner_race.into_iter().for_each(|point| insert(&mut course.inner_race, point));
+        }
         let cage = CageSection::of(self, state);
-        Ok((OverrunSection::new(&course, named(self, state), self, cage), lift_off_rad_s))
+        Ok((OverrunSection::new(&course, named, self, cage), lift_off_rad_s))
     }
 }
 

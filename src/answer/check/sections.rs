@@ -7,11 +7,6 @@ use crate::report::{Curve, Page, Plot, Unit, greek};
 /// What the table of overrun leaves out.
 const LEFT_OUT: &str = "Speeds between two that show the same are left out: --overrun-csv has them all.";
 
-/// Lift-off is drawn up to this multiple of the largest speed that the file names: a choice.
-const FAR: f64 = 3.0;
-/// What is drawn beyond the largest speed of interest, as a multiple of it.
-const ROOM: f64 = 1.5;
-
 /// Section of the page: overrun.
 pub(super) fn overrun(
     section: &overrun::OverrunSection,
@@ -19,11 +14,7 @@ pub(super) fn overrun(
     lift_off_rpm: Option<f64>,
     wanted_rpm: Option<f64>,
 ) {
-    // The speeds that the file names, with room, and lift-off where it is not far away.
-    let named = section.named.iter().flat_map(|n| [n.outer_rpm, n.inner_rpm]).map(f64::abs);
-    let named = named.chain(wanted_rpm).fold(0.0, f64::max);
-    let near = lift_off_rpm.filter(|off| *off <= FAR * named).unwrap_or(0.0);
-    let drawn_to = if named > 0.0 { ROOM * named.max(near) } else { f64::INFINITY };
+    let drawn_to = overrun::drawn_to_rpm(&section.named, lift_off_rpm, wanted_rpm);
     let of = |race: &'static str, value: fn(&overrun::OverrunRow) -> f64| {
         let rows = section.points.iter().filter(|p| p.race == race && p.speed_rpm <= drawn_to);
         rows.map(|p| [p.speed_rpm, value(p)]).collect::<Vec<_>>()

@@ -9,6 +9,11 @@ use crate::report::{Page, Plot, Unit, significant};
 /// Speeds of a curve.
 const POINTS: usize = 24;
 
+/// A lift-off within this multiple of the largest speed asked for is drawn, and these parts of it: on the logarithm drag falls
+/// steeply there. Choices.
+const NEAR: f64 = 2.0;
+const BEFORE_THE_END: [f64; 7] = [0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 0.98];
+
 /// What a plot shows of a line.
 type Shown = fn(&OverrunLine) -> Option<f64>;
 
@@ -27,6 +32,11 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
     if let Some((_, lines)) = sets.first() {
         let dry = points(lines, |l| Some(l.dry.state.drag_torque_nm));
         drag.curves.push(Curve { dash: Dash::Dotted, ..Curve::new("dry, by the friction law (12)", dry) });
+    }
+    if let Some(off) = end(answer).filter(|off| *off <= NEAR * fastest(answer)) {
+        // There drag ends.
+        drag.curves.iter_mut().for_each(|curve| curve.points.push([Unit::Rpm.from_si(off), 0.0]));
+        drag = drag.marker(Unit::Rpm.from_si(off), "lift-off");
     }
     let mut lambda = plot("Film over roughness, λ", |l| l.point.lubricated.map(|f| f.film.lambda))
         .level(1.0, "asperities carry much below");
@@ -74,6 +84,16 @@ fn points(lines: &[OverrunLine], shown: Shown) -> Vec<[f64; 2]> {
     lines.iter().filter_map(|l| Some([Unit::Rpm.from_si(l.speed_rad_s), shown(l)?])).collect()
 }
 
+/// Speed at which sliding ends, rad/s, where it does.
+fn end(answer: &OverrunAnswer<'_>) -> Option<f64> {
+    answer.lift_off_rad_s.filter(|_| answer.design.ends_at_lift_off(answer.question.race))
+}
+
+/// Largest speed asked for, rad/s.
+fn fastest(answer: &OverrunAnswer<'_>) -> f64 {
+    answer.question.speeds_rad_s.iter().copied().fold(0.0, f64::max)
+}
+
 /// For each temperature the speeds between the least and the largest asked for, evenly on a logarithm.
 fn curves(answer: &OverrunAnswer<'_>) -> Vec<(String, Vec<OverrunLine>)> {
     let speeds = || answer.question.speeds_rad_s.iter().copied().filter(|w| *w > 0.0);
@@ -81,16 +101,17 @@ fn curves(answer: &OverrunAnswer<'_>) -> Vec<(String, Vec<OverrunLine>)> {
     if high <= 0.0 {
         return Vec::new();
     }
-    let end = answer
-        .lift_off_rad_s
-        .filter(|_| answer.design.ends_at_lift_off(answer.question.race))
-        .unwrap_or(f64::INFINITY);
+    let end = end(answer).unwrap_or(f64::INFINITY);
     let low = low.min(0.1 * high);
     let at = |i: usize| low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
+    let before = if end <= NEAR * high { &BEFORE_THE_END[..] } else { &[] };
+    let mut speeds: Vec<f64> = (0..POINTS).map(at).chain(before.iter().map(|part| part * end)).collect();
+    speeds.retain(|w| *w < end);
+    speeds.sort_by(f64::total_cmp);
     let one = |&oil_c: &f64| {
         let there = OilAt::new(answer.design, oil_c);
-        let lines = (0..POINTS).map(at).filter(|w| *w < end);
-        let lines = lines.filter_map(|w| there.line(&answer.state, answer.question.race, w).ok()).collect();
+        let line = |w: &f64| there.line(&answer.state, answer.question.race, *w).ok();
+        let lines = speeds.iter().filter_map(line).collect();
         (format!("oil at {} °C", significant(oil_c, 3)), lines)
     };
     answer.question.temperatures_c.iter().map(one).collect()
