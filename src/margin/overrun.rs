@@ -136,6 +136,9 @@ pub const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * std::f64::consts::PI / 30.0;
 /// How exactly the speed of lift-off is located, by the range in which it is looked for.
 pub const LIFT_OFF_ERROR: f64 = 1e-12;
 
+/// A first turn, by the range in which lift-off is looked for: a choice, 0.06 rpm.
+const FIRST_TURN: f64 = 1e-6;
+
 /// Lift-off speed, rad/s, of the outer race, in a driven cage of the inner one: opening = closing moment, which is where [`overrun_at`]
 /// ends to find a normal force at the sliding contact; `None` where contact is kept to `up_to`.
 pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Option<f64> {
@@ -143,12 +146,14 @@ pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> O
         let (opening, closing) = overrun_moments(design, state, speed);
         closing - opening
     };
-    let (a, b) = (left(0.0), left(up_to_rad_s));
+    // Without a spring nothing presses at rest, and the first turn decides.
+    let from = if left(0.0) == 0.0 { FIRST_TURN * up_to_rad_s } else { 0.0 };
+    let (a, b) = (left(from), left(up_to_rad_s));
     if a <= 0.0 {
         return Some(0.0);
     }
     if b > 0.0 {
         return None;
     }
-    root::bracketed(0.0, up_to_rad_s, a, b, LIFT_OFF_ERROR * up_to_rad_s, left)
+    root::bracketed(from, up_to_rad_s, a, b, LIFT_OFF_ERROR * up_to_rad_s, left)
 }

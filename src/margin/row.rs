@@ -67,8 +67,12 @@ impl Rule {
             Self::Slip => {
                 "slip margin μs / demand − 1, held from the allowable, the wanted slip margin, up; −1 where no friction suffices"
             }
-            Self::Share => "1 − demand / allowable; −1 where the spring closes nothing",
-            Self::Reserve => "allowable / demand − 1; 1 where the spring closes nothing",
+            Self::Share => {
+                "1 − demand / allowable; where the spring closes nothing −1, or no demand if the speed closes"
+            }
+            Self::Reserve => {
+                "allowable / demand − 1; where the spring closes nothing 1, or −1 if the speed closes"
+            }
             Self::Clearance => "clearance over the gap between the tracks at rest",
             Self::Itself => "the ratio itself; −1 where the scenario does not start or end",
             Self::Difference => "allowable − demand",
@@ -79,10 +83,12 @@ impl Rule {
     fn left(self, demand: f64, allowable: f64, reference: f64) -> Left {
         match self {
             Self::Ratio | Self::Onset | Self::Slip if demand.abs() * NOTHING <= allowable.abs() => Left::All,
+            Self::Share if allowable <= 0.0 && demand < allowable => Left::All,
             Self::Share if allowable <= 0.0 => Left::Lost,
             Self::Ratio | Self::Onset | Self::Slip => Left::Value(allowable / demand - 1.0),
             Self::Share => Left::Value(1.0 - demand / allowable),
             Self::Reserve if demand > 0.0 => Left::Value(allowable / demand - 1.0),
+            Self::Reserve if allowable < demand => Left::Lost,
             Self::Reserve => Left::Value(1.0),
             Self::Clearance => Left::Value(allowable / reference),
             Self::Itself => Left::Value(allowable),
@@ -249,6 +255,11 @@ impl Margin {
     pub fn slip_measure(&self) -> Option<f64> {
         let wanted = if self.left() == Left::Lost { 0.0 } else { self.reference };
         self.is_slip().then_some((1.0 + self.margin()) * (1.0 + wanted) - 1.0)
+    }
+
+    /// Whether no friction holds the clutch in a scene whose torque is to let it go.
+    pub fn lets_go(&self) -> bool {
+        self.demand == Demand::NoneSuffices && self.aside.is_some()
     }
 
     /// Whether it is the friction that a scenario needs.
