@@ -95,7 +95,7 @@ const CORE: Limit = Limit {
 const EQUIVALENT: Limit = Limit {
     explanation: "Equivalent stress (von Mises) of the race under the mean pressure of the sprags on its track, by Lame for a \
                   thick ring. A thicker race or a larger wedge angle lowers it.",
-    formula: "sqrt(p^2 + p h + h^2) at the outer race's track, h its hoop stress; 2 p R_i^2/(R_i^2 - R_id^2) at the \
+    formula: "sqrt(p^2 + p h + h^2) at the outer race's track, h its hoop stress with that of rotation at at_speed_rpm; 2 p R_i^2/(R_i^2 - R_id^2) at the \
               inner race's bore",
     source: "Lame and von Mises; Timoshenko, Strength of Materials II, art. 41",
     ..PRESSURE
@@ -299,7 +299,10 @@ pub static LIMITS: &[&Limit] = &[
         name: |_| "equivalent stress of the outer race, nominal torque",
         of: Of::clutch(
             |_, l| l.equivalent_outer_pa,
-            |c, p| c.elastic().outer_race.equivalent_pa(c.count(), p.normal_outer_n),
+            |c, p| {
+                let speed = c.state.curve.speed_rad_s();
+                c.elastic().outer_race.turning_equivalent_pa(c.count(), p.normal_outer_n, speed)
+            },
         ),
         ..EQUIVALENT
     },

@@ -201,6 +201,18 @@ impl Race {
         }
     }
 
+    /// The same while it rotates at `speed_rad_s`, which stretches the track of an outer race, most of all there; an inner race, pressed
+    /// together by its load, as at rest, where its stress is not less.
+    pub fn turning_equivalent_pa(&self, contacts: usize, normal_n: f64, speed_rad_s: f64) -> f64 {
+        let still = self.equivalent_pa(contacts, normal_n);
+        if speed_rad_s == 0.0 || self.side == Side::Inner {
+            return still;
+        }
+        let p = self.track_pressure_pa(contacts, normal_n);
+        let h = self.hoop_at_track_pa(contacts, normal_n) + self.rotating_bore_hoop_pa(speed_rad_s);
+        still.max((p * p + p * h + h * h).sqrt())
+    }
+
     /// Hoop stress at the bore of the ring rotating at `speed_rad_s`, unloaded, Pa, tension positive:
     /// rho omega^2/4 [(3+nu) R_o^2 + (1-nu) R_b^2] (Timoshenko, *Theory of Elasticity*, art. 32);
     /// a solid shaft has (3+nu)/8 rho omega^2 R_o^2 at its centre. At the track of an outer race whose outside is held, less.
