@@ -8,6 +8,9 @@ use crate::design::Limits;
 use crate::dynamics::Stop;
 use crate::scenario::{self, AtRest, NoScenario, Prepared, Reduction, Settings, prepare_reduced};
 
+/// What is said behind a slip row that no friction holds, and is not to hold.
+const LETS_GO: &str = "its torque lets the clutch go, whatever the friction";
+
 /// Rolling demand of one scenario, with the Hertz pressure that comes with it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneDemand {
@@ -17,6 +20,8 @@ pub struct SceneDemand {
     pub static_friction: f64,
     /// Largest p_0 of the rolling run, Pa: the tie-breaker of the optimiser.
     pub hertz_peak_pa: f64,
+    /// Whether the scene's torque is to let the clutch go: that no friction holds it then is no fault of the friction.
+    pub is_to_let_go: bool,
 }
 
 impl SceneDemand {
@@ -24,7 +29,8 @@ impl SceneDemand {
     pub fn of(scene: &Scenario, prepared: &Prepared, found: scenario::RollingDemand) -> Self {
         let peak = prepared.model.curve.at_normal(found.normal_max_n[0]);
         let static_friction = scene.clutch.friction.static_;
-        Self { demand: Ok(found), static_friction, hertz_peak_pa: peak.map_or(0.0, |r| r.hertz_inner_pa) }
+        let hertz_peak_pa = peak.map_or(0.0, |r| r.hertz_inner_pa);
+        Self { demand: Ok(found), static_friction, hertz_peak_pa, is_to_let_go: is_to_let_go(scene) }
     }
 
     /// What rolling demands, where that ran to its end.
@@ -41,12 +47,19 @@ impl SceneDemand {
     }
 }
 
+fn is_to_let_go(scene: &Scenario) -> bool {
+    scene.lets_go() == Some(true)
+}
+
 /// Evaluate one scenario's rolling demand; `known`: a curve that need not be built again.
 pub fn scene_demand(scene: &Scenario, known: Option<AtRest>, settings: &Settings) -> SceneDemand {
     let static_friction = scene.clutch.friction.static_;
     match prepare_reduced(scene, &Reduction::default(), known) {
         Ok(p) => SceneDemand::of(scene, &p, scenario::demand(&p, settings)),
-        Err(e) => SceneDemand { demand: Err(e), static_friction, hertz_peak_pa: 0.0 },
+        Err(e) => {
+            let is_to_let_go = is_to_let_go(scene);
+            SceneDemand { demand: Err(e), static_friction, hertz_peak_pa: 0.0, is_to_let_go }
+        }
     }
 }
 
@@ -86,10 +99,11 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
             }
             _ => return None,
         };
+        let lets_go = d.is_to_let_go && matches!((limit.of, known), (Of::Slip, Demand::NoneSuffices));
         let aside = match (not_computed, &overload) {
             (Some(why), _) => Some(format!("not computed, {why}")),
             (None, Some(why)) => Some(format!("overloaded, {why}")),
-            (None, None) => None,
+            (None, None) => lets_go.then(|| LETS_GO.to_owned()),
         };
         let row = Margin { aside, reference, ..Margin::new(limit, demand(known), allowable) };
         Some(of_scene(row, name, required))

@@ -1,6 +1,7 @@
 //! What a scenario says, and its course to be played.
 
 use super::view::{MarginRow, row};
+use crate::answer::check::no_friction;
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::{Grip, Overrun, Place, Sample};
@@ -71,8 +72,11 @@ pub fn scene_row(design: &Design, state: &LoadState, scenario: &Scenario, settin
     let required = design.check_scenarios.contains(&scenario.name);
     let margins =
         scene_rows(scenario, &found, &design.limits, required).iter().map(|r| row(r, None)).collect();
-    let note = found.demand.as_ref().err().map(ToString::to_string);
     let required_friction = found.demand.as_ref().ok().and_then(|d| d.required_friction);
+    let lets_go =
+        found.is_to_let_go && found.demand.as_ref().is_ok_and(|d| d.finished && required_friction.is_none());
+    let why = found.demand.as_ref().err().map(ToString::to_string);
+    let note = why.or_else(|| lets_go.then(|| no_friction(true).to_owned()));
     SceneRow { name, required_friction, static_friction, margins, note }
 }
 
@@ -119,7 +123,8 @@ pub fn scene_view(
     if let Some(d) = &s.demand {
         fact(
             "required friction μ",
-            d.required_friction.map_or("none suffices".into(), |f| significant(f, 4)),
+            d.required_friction
+                .map_or(no_friction(scenario.lets_go() == Some(true)).into(), |f| significant(f, 4)),
         );
         fact("slip margin", d.slip_margin.map_or("none".into(), |m| Unit::Percent.show(m, 3)));
         fact("contact margin", Unit::Percent.show(d.contact_margin, 3));

@@ -460,6 +460,33 @@ fn overrun_is_that_of_the_speeds_that_the_design_names() {
 }
 
 /// Where nominal and peak torque have pressures of their own, a line says why.
+/// Without a spring the speed alone presses the sprags of an engaging design on, from the first turn.
+#[test]
+fn sprags_without_a_spring_that_the_speed_presses_on_stay_on() {
+    let folder = Folder::new();
+    let file = folder.path("loose.toml");
+    let text = include_str!("../../designs/indexing.toml").replace("per_rad = 0.01 ", "per_rad = 0.0 ");
+    std::fs::write(&file, text).unwrap();
+    let value = json(&run(&["check", &file, "--json"]));
+    assert!(value["lift_off_rpm"].as_f64().is_some_and(|rpm| rpm > 1e4), "{}", value["lift_off_rpm"]);
+    let kept = value["margins"].as_array().unwrap().iter().find(|m| m["code"] == "keep-contact").unwrap();
+    assert_eq!((&kept["held"], kept["margin"].as_f64()), (&true.into(), Some(1e6)), "{kept}");
+}
+
+/// A torque that turns round lets the clutch go, for which no friction is to blame.
+#[test]
+fn a_slip_row_of_a_torque_that_turns_round_says_so() {
+    let turns = "kind = \"transient\"\npreload_nm = 45.0\ntorque_step_nm = -65.0\nstep_time_s = 0.01\n\
+                 abutment_stiffness_nm_per_rad = 5000.0\nduration_s = 0.05\n";
+    let text = std::fs::read_to_string(MULTI).unwrap();
+    let text = format!("{text}\n[[scenarios]]\nname = \"turns\"\n{turns}");
+    let said = Design::parse(&text, "turns.toml").unwrap().check(&Follow::nobody()).unwrap();
+    let said = said.text(Screen::default());
+    let row = said.lines().find(|l| l.starts_with("slip:turns ")).unwrap();
+    assert!(row.contains("lets go") && !row.contains("none suffices"), "{said}");
+    assert!(said.contains("lets go: in turns the torque does not keep the clutch engaged"), "{said}");
+}
+
 #[test]
 fn two_allowables_of_one_pressure_are_explained_once() {
     let said = stdout(&run(&["check", "designs/huang2017-multi-arc.toml", "--quiet", "--notes"]));

@@ -10,6 +10,14 @@ use serde::Serialize;
 
 /// A demand that no friction meets, in words.
 pub const NONE_SUFFICES: &str = "none suffices";
+/// What stands for it where the scene's torque is to let the clutch go.
+pub const LETS_GO: &str = "lets go";
+
+/// What stands for a friction that there is none of.
+pub fn no_friction(is_to_let_go: bool) -> &'static str {
+    if is_to_let_go { LETS_GO } else { NONE_SUFFICES }
+}
+
 /// What stands for its margin.
 const NONE: &str = "none";
 /// A scene whose load goes beyond the end of the curve.
@@ -411,7 +419,7 @@ pub fn demand_cell(r: &Margin) -> Cell {
         // Friction has no demand at all then, a torque one at the end of the curve.
         Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
         Demand::Overloaded { at_end: None, .. } => OVERLOADED.into(),
-        Demand::NoneSuffices => NONE_SUFFICES.into(),
+        Demand::NoneSuffices => no_friction(r.lets_go()).into(),
         Demand::NotComputed(_) | Demand::Unknown => NOT_COMPUTED.into(),
     }
 }

@@ -15,8 +15,9 @@ mod text;
 
 pub use body::{Capacity, CheckBody, CheckRow, Deciding};
 pub use body::{
-    NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, far_more_than_asked,
-    in_place_of_margin, is_beyond, margin_cell, margin_text, margin_words, people_table, unit_cell,
+    LETS_GO, NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first,
+    far_more_than_asked, in_place_of_margin, is_beyond, margin_cell, margin_text, margin_words, no_friction,
+    people_table, unit_cell,
 };
 
 pub(super) use text::{REACHED_AT, much_friction, size_line};

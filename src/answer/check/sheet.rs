@@ -2,7 +2,7 @@
 
 use super::page::answered;
 use super::text::beside_the_rows;
-use super::{CheckAnswer, people_table};
+use super::{CheckAnswer, no_friction, people_table};
 use crate::answer::page::{draw_inputs, half};
 use crate::answer::{Answer, Provenance};
 use crate::design::Design;
@@ -98,7 +98,7 @@ fn scenes(check: &CheckAnswer) -> Table {
 /// Friction that the scene needs, or why there is none.
 fn friction(found: &SceneDemand) -> Cell {
     match &found.demand {
-        Ok(d) if d.finished => d.required_friction.map_or("none suffices".into(), Cell::Si),
+        Ok(d) if d.finished => d.required_friction.map_or(no_friction(found.is_to_let_go).into(), Cell::Si),
         Ok(d) => if d.overloaded { "overloaded" } else { "not computed" }.into(),
         Err(why) => greek(&why.to_string()).into(),
     }

@@ -73,6 +73,9 @@ fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
     assert!(text(&beyond).contains(OVERLOADED) && !text(&beyond).contains(NONE_SUFFICES));
     let unknown = [Margin { demand: Demand::NotComputed("step limit"), ..rows[0].clone() }];
     assert!(text(&unknown).contains(NOT_COMPUTED));
+    // Friction is not to blame where the torque lets the clutch go.
+    let lets_go = [Margin { aside: Some("its torque".to_owned()), ..rows[0].clone() }];
+    assert!(text(&lets_go).contains(LETS_GO) && !text(&lets_go).contains(NONE_SUFFICES));
     let unknown = CheckBody::new(&unknown, source(None));
     assert_eq!(unknown.held(), None);
     assert!(unknown.verdict().contains("slip:x: step limit"), "{}", unknown.verdict());

@@ -1,6 +1,6 @@
 //! The margin check as text, and the sentences that its page has too.
 
-use super::{CheckAnswer, CheckBody, NONE_SUFFICES, OVERLOADED, people_table};
+use super::{CheckAnswer, CheckBody, LETS_GO, NONE_SUFFICES, OVERLOADED, people_table};
 use crate::answer::simulation::unfelt;
 use crate::design::Design;
 use crate::life::INDENTING_PA;
@@ -32,7 +32,15 @@ impl Notes {
         let dent = dent(rows);
         let all = body.other_remarks().into_iter().chain(asides(design, rows)).chain(dent);
         let mut of_design: Vec<String> = all.map(|line| greek(&line)).collect();
-        if rows.iter().any(|r| r.demand == Demand::NoneSuffices) {
+        let lets_go: Vec<&str> =
+            rows.iter().filter(|r| r.lets_go()).filter_map(|r| r.scene.as_deref()).collect();
+        if !lets_go.is_empty() {
+            of_design.push(format!(
+                "{LETS_GO}: in {} the torque does not keep the clutch engaged, and it overruns, whatever the friction",
+                lets_go.join(", ")
+            ));
+        }
+        if rows.iter().any(|r| r.demand == Demand::NoneSuffices && !r.lets_go()) {
             of_design.push(format!("{NONE_SUFFICES}: contact would open, whatever the friction"));
         }
         if rows.iter().any(|r| r.overloaded() && r.demand.value().is_none()) {
@@ -165,11 +173,14 @@ fn turning(design: &Design, rows: &[Margin]) -> Option<String> {
     let ends = rows.iter().filter(fails).find(|row| row.overloaded()).and_then(|row| row.end_torque_nm);
     let ends = ends
         .map_or(String::new(), |nm| format!(", where the curve ends at {}", Unit::NewtonMetre.show(nm, 4)));
+    // Round the circumference, and sprags one by one.
+    let still = |row: &Margin| row.off_centre || row.limit.code.starts_with("sprag-");
+    let rest = if rows.iter().any(still) { "; run-out-… and sprag-… at rest alone" } else { "" };
     Some(match codes.as_slice() {
         [] => format!(
-            "Rows at nominal and peak torque: at rest or at {speed} (at_speed_rpm), whichever is worse"
+            "Rows at nominal and peak torque: at rest or at {speed} (at_speed_rpm), whichever is worse{rest}"
         ),
-        codes => format!("Warning: at {speed} (at_speed_rpm){ends}, not held: {}", codes.join(", ")),
+        codes => format!("Warning: at {speed} (at_speed_rpm){ends}, not held: {}{rest}", codes.join(", ")),
     })
 }
 

@@ -3,7 +3,7 @@
 use super::figures::{FIGURES, Figure};
 use super::{Comparison, farthest, letter, proud, unit_of, with_unit};
 use crate::answer::Answer;
-use crate::answer::check::{in_place_of_margin, margin_cell};
+use crate::answer::check::{in_place_of_margin, margin_cell, no_friction};
 use crate::compare::{Scene, SideBySide};
 use crate::file::Input;
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin};
@@ -105,7 +105,7 @@ pub(super) fn margins(compared: &Comparison<'_>) -> Table {
 pub(super) fn scenes(compared: &Comparison<'_>) -> Table {
     let friction = |s: &Scene| match (required_friction(s), &s.found.demand) {
         (Some(mu), _) => mu.into(),
-        (None, Ok(d)) if d.finished => "none suffices".into(),
+        (None, Ok(d)) if d.finished => no_friction(s.found.is_to_let_go).into(),
         (None, _) => "does not run".into(),
     };
     let under = |key: &'static str, heading: &'static str| {

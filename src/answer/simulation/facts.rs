@@ -281,7 +281,7 @@ fn demand(f: &mut FactRows, scene: &Ran, s: &Simulation) {
         let label = &format!("{label}{}", counted(figure, s));
         if let Some(words) = instead(figure.quantity, &d) {
             let is_to_let_go = words == NONE_SUFFICES
-                && s.verdict == Some(Verdict::SlipsOverrunning)
+                && matches!(s.verdict, Some(Verdict::SlipsOverrunning | Verdict::Disengages))
                 && scene.scenario.lets_go() == Some(true);
             f.word(label, if is_to_let_go { "none: it is to let go" } else { &words });
             continue;
