@@ -67,11 +67,9 @@ impl Rule {
             Self::Slip => {
                 "slip margin μs / demand − 1, held from the allowable, the wanted slip margin, up; −1 where no friction suffices"
             }
-            Self::Share => {
-                "1 − demand / allowable; where the spring closes nothing −1, or no demand if the speed closes"
-            }
+            Self::Share => "1 − demand / allowable; −1 where neither spring nor speed closes",
             Self::Reserve => {
-                "allowable / demand − 1; where the spring closes nothing 1, or −1 if the speed closes"
+                "allowable / demand − 1; where the spring closes nothing 1, or −1 where the speed does"
             }
             Self::Clearance => "clearance over the gap between the tracks at rest",
             Self::Itself => "the ratio itself; −1 where the scenario does not start or end",
