@@ -2,7 +2,7 @@
 
 use super::Margin;
 use super::limits::{Limit, Of, When};
-use super::load::{LoadCase, LoadState, clearance_at_m, profile_capacity};
+use super::load::{LoadCase, LoadState, clearances_m, profile_capacity};
 use super::sprag::grip;
 use super::table::{END_OF_PROFILE, GRIP_INNER, LIMITS};
 use crate::design::{Design, Limits};
@@ -27,8 +27,9 @@ fn bounded<'a>(case: LoadCase<'a>, limit: &'static Limit) -> Option<Bounded<'a>>
         }),
         // Clearance used up, so that it rises to 1 where neighbours touch.
         Of::Neighbours => {
-            let free = clearance_at_m(design, state, &StaticPoint::UNLOADED)?;
-            let used = move |p: &StaticPoint| 1.0 - clearance_at_m(design, state, p).unwrap_or(free) / free;
+            let clearance_m = clearances_m(design, state)?;
+            let free = clearance_m(&StaticPoint::UNLOADED);
+            let used = move |p: &StaticPoint| 1.0 - clearance_m(p) / free;
             Some(Bounded { limit, allowed: 1.0, demand: Box::new(used) })
         }
         _ => {

@@ -8,7 +8,7 @@ use super::table::LIMITS;
 use super::{NoMargins, curve_at_rest};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
-use crate::profile::{Outline, Profile, clearance_m};
+use crate::profile::{Neighbours, Outline, Profile};
 use crate::scenario::AtRest;
 use crate::wedge::{AtSpeeds, Effort, Elastic, EndReason, StaticPoint, WedgeCurve};
 
@@ -213,9 +213,9 @@ fn loaded_row(
         }
         Of::Neighbours => {
             // Clearance itself, relative to the sprag's height: smooth through contact.
-            let clearance_m = |p: &StaticPoint| clearance_at_m(design, state, p);
-            let at_ends_m = clearance_m(&StaticPoint::UNLOADED)?.min(clearance_m(&p)?);
-            let on_the_way_m: Vec<f64> = below.iter().filter_map(clearance_m).collect();
+            let clearance_m = clearances_m(design, state)?;
+            let at_ends_m = clearance_m(&StaticPoint::UNLOADED).min(clearance_m(&p));
+            let on_the_way_m: Vec<f64> = below.iter().map(clearance_m).collect();
             let gap_m = on_the_way_m.iter().copied().fold(at_ends_m, f64::min);
             deciding.extend(
                 looks.iter().zip(on_the_way_m).find(|(_, m)| *m < at_ends_m && *m == gap_m).map(|(i, _)| i),
@@ -274,14 +274,16 @@ fn below(state: &LoadState, peak: &StaticPoint) -> impl Iterator<Item = (usize, 
     (1..LOOKS).filter(counts).filter_map(at)
 }
 
-/// Clearance between neighbouring sprags in a static state, m; `None` without flanks.
-pub(super) fn clearance_at_m(design: &Design, state: &LoadState, p: &StaticPoint) -> Option<f64> {
-    let outline = state.outline.as_ref()?;
-    let (oc_e, rotation) = match state.curve.closure_at_normal(p.normal_inner_n) {
-        Some((_, c)) if p.normal_inner_n > 0.0 => (c.lengths.oc_e.v, c.rotation.v),
-        _ => (state.profile.outer_centre_distance_m, 0.0),
-    };
-    Some(clearance_m(outline, oc_e, rotation, design.clutch.sprags.count))
+/// Clearance between neighbouring sprags by their static state, m; `None` without flanks.
+pub(super) fn clearances_m(design: &Design, state: &LoadState) -> Option<impl Fn(&StaticPoint) -> f64> {
+    let neighbours = Neighbours::new(state.outline.as_ref()?, design.clutch.sprags.count);
+    Some(move |p: &StaticPoint| {
+        let (oc_e, rotation) = match state.curve.closure_at_normal(p.normal_inner_n) {
+            Some((_, c)) if p.normal_inner_n > 0.0 => (c.lengths.oc_e.v, c.rotation.v),
+            _ => (state.profile.outer_centre_distance_m, 0.0),
+        };
+        neighbours.as_ref().map_or(f64::INFINITY, |n| n.clearance_m(oc_e, rotation))
+    })
 }
 
 /// The torque, or one a hair below the curve's end where that comes first.

@@ -62,7 +62,7 @@ struct Edge {
 }
 
 /// One sprag and its neighbour, `pitch` further round O.
-struct Neighbours {
+pub struct Neighbours {
     features: Vec<Feature>,
     pitch: f64,
     /// Centres of the neighbour's features, seen in the sprag's own frame.
@@ -71,8 +71,8 @@ struct Neighbours {
 }
 
 impl Neighbours {
-    /// None below two sprags.
-    fn new(outline: &Outline, count: usize) -> Option<Self> {
+    /// Of `count` sprags of this outline; none below two.
+    pub fn new(outline: &Outline, count: usize) -> Option<Self> {
         (count >= 2).then(|| Self::apart(outline, TAU / count as f64))
     }
 
@@ -123,9 +123,9 @@ impl Neighbours {
         2.0 * oc_e * (self.pitch / 2.0).sin()
     }
 
-    /// Signed clearance, m. In the body frame the neighbour is the body turned by the pitch p and moved by
+    /// See [`clearance_m`]. In the body frame the neighbour is the body turned by the pitch p and moved by
     /// s = OC_e [dir(p - Omega) - dir(-Omega)], so the gap along n(phi) is s.n - h(phi) - h(phi + pi - p).
-    fn clearance(&self, oc_e: f64, rotation: f64) -> f64 {
+    pub fn clearance_m(&self, oc_e: f64, rotation: f64) -> f64 {
         let facing = PI - self.pitch;
         let s = self.chord(oc_e) * along((PI + self.pitch) / 2.0 - rotation);
         let gap =
@@ -162,13 +162,14 @@ fn turned(v: Vector2<f64>, angle: f64) -> Vector2<f64> {
 /// infinity, never NaN, where an argument is not finite.
 pub fn clearance_m(outline: &Outline, outer_centre_distance_m: f64, rotation_rad: f64, count: usize) -> f64 {
     Neighbours::new(outline, count)
-        .map_or(f64::INFINITY, |neighbours| neighbours.clearance(outer_centre_distance_m, rotation_rad))
+        .map_or(f64::INFINITY, |neighbours| neighbours.clearance_m(outer_centre_distance_m, rotation_rad))
 }
 
 /// Least pitch from 0 to `even_rad`, rad, at which neighbours turned alike do not overlap; `even_rad` itself where they do at that. As
 /// in [`clearance_m`] else. Convex sprags that overlap at one pitch overlap at every smaller one, so bisection finds it.
 pub fn least_pitch_rad(outline: &Outline, outer_centre_distance_m: f64, even_rad: f64) -> f64 {
-    let clear = |pitch: f64| Neighbours::apart(outline, pitch).clearance(outer_centre_distance_m, 0.0) > 0.0;
+    let clear =
+        |pitch: f64| Neighbours::apart(outline, pitch).clearance_m(outer_centre_distance_m, 0.0) > 0.0;
     let (mut touches, mut clears) = (0.0, even_rad);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (touches + clears);
@@ -193,7 +194,7 @@ pub fn touch_rotation_rad(
     max_rotation_rad: f64,
 ) -> Option<f64> {
     let neighbours = Neighbours::new(outline, count)?;
-    let clearance = |rotation: f64| neighbours.clearance(outer_centre_distance_m, rotation);
+    let clearance = |rotation: f64| neighbours.clearance_m(outer_centre_distance_m, rotation);
     let radius = neighbours.features.iter().map(|f| f.centre.norm() + f.radius).fold(0.0, f64::max);
     let rate = neighbours.chord(outer_centre_distance_m).abs().min(2.0 * radius);
     let end = max_rotation_rad.min(TAU); // the outline repeats; also NaN: a whole turn

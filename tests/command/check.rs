@@ -1,7 +1,9 @@
 //! `check` from outside: exit codes, JSON, CSV, page.
 
 use crate::program::*;
-use sprag_design::{Design, Settings, margins};
+use sprag_design::answer::Answer;
+use sprag_design::report::Screen;
+use sprag_design::{Design, Follow, Settings, margins};
 
 #[test]
 fn the_multi_arc_design_holds() {
