@@ -32,7 +32,7 @@ fn a_quick_curve_is_the_curve() {
         let clutch = Design::read(Path::new(MULTI)).unwrap().clutch;
         cases.push((format!("multi-arc, {law:?}"), sprag_design::Clutch { contact: law, ..clutch }));
     }
-    // Its panels are halved on the way: radii far apart under one patch, as an optimum has them.
+    // Panels are halved here, as those of the series of 160 mm at speed are: radii far apart under one patch, as an optimum has them.
     let mut clutch = Design::read(Path::new("designs/huang2017-elastic.toml")).unwrap().clutch;
     for (arc, radius_m) in clutch.sprags.inner_arcs.iter_mut().zip([4.255e-3, 3.6e-3, 5.17e-3]) {
         arc.radius_m = radius_m;
@@ -73,9 +73,7 @@ fn a_quick_curve_is_the_curve() {
             }
             println!("{name} at {speed}: {worst:.1e}, truncation {:.1e}", quick.truncation());
             assert!(worst < 1e-7, "{name} at {speed}: {worst:e}");
-            // The full one has been built in its place: where an edge of the patch lies near an arc's end.
-            let refused = worst == 0.0;
-            assert_eq!(refused, name == "Series 8.33, 160 mm" && speed > 0.0, "{name} at {speed}");
+            assert!(worst > 0.0, "{name} at {speed}: the full one in its place");
             for share in [0.01, 0.3, 0.7, 0.99] {
                 let (a, b) = (full.at_torque(share * end), quick.at_torque(share * end));
                 let (Some(a), Some(b)) = (a, b) else { panic!("{name}: {share}") };
