@@ -374,7 +374,7 @@ overrun_rpm = 60.0
 abutment_stiffness_nm_per_rad = 5000.0
 "#;
     let design = parse(&with("designs/huang2017-multi-arc.toml", driven));
-    let answer = ran(&design, "catch", 41, 1e-5);
+    let answer = ran(&design, "catch", 41, 1e-7);
     let column = columns(&answer);
     let (time, rate) = (column("time_s"), column("theta_inner_rate_rad_per_s"));
     for (t, rate) in time.iter().zip(&rate) {
