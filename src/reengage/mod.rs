@@ -191,7 +191,7 @@ pub fn taken_up_j(curve: &WedgeCurve, torque_nm: f64, until_nm: f64) -> Option<f
 }
 
 /// [`taken_up_j`] of two torques.
-pub(crate) fn both_taken_up_j(curve: &WedgeCurve, torque_nm: f64, until_nm: [f64; 2]) -> Option<[f64; 2]> {
+pub fn both_taken_up_j(curve: &WedgeCurve, torque_nm: f64, until_nm: [f64; 2]) -> Option<[f64; 2]> {
     let mut windup = Windup::new(curve, torque_nm)?;
     Some(until_nm.map(|nm| windup.taken_up_j(nm)))
 }
