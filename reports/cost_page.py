@@ -343,7 +343,7 @@ def evaluation():
         off = F("evaluation", law, "quick", setting, "largest difference of a margin")
         worst = max(worst, off)
         rows.append([law, setting, f"{F('evaluation', law, 'quick', setting, 'margins compared'):.0f}", number(off, 2), at.split(".", 1)[1],
-                     number(STATED[law] if off <= STATED[law] else STATED_PULLED),
+                     f"{number(STATED[law])}, {number(STATED_PULLED)}",
                      number(F("evaluation", law, "quick", "", "processor time of one"), 2), number(F("evaluation", law, "full", "", "processor time of one"), 2),
                      number(F("evaluation", law, "quick", "", "times as fast as full, median of pairs"), 2)])
     head = ["law", "with a clutch", "margins", "largest difference", "of", "stated", "quick, ms", "--full, ms", "times as fast"]

@@ -8,7 +8,7 @@ use super::table::LIMITS;
 use super::{NoMargins, curve_at_rest};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
-use crate::profile::{Neighbours, Outline, Profile};
+use crate::profile::{self, Outline, Profile};
 use crate::scenario::AtRest;
 use crate::wedge::{AtSpeeds, Effort, Elastic, EndReason, StaticPoint, WedgeCurve};
 
@@ -276,13 +276,13 @@ fn below(state: &LoadState, peak: &StaticPoint) -> impl Iterator<Item = (usize, 
 
 /// Clearance between neighbouring sprags by their static state, m; `None` without flanks.
 pub(super) fn clearances_m(design: &Design, state: &LoadState) -> Option<impl Fn(&StaticPoint) -> f64> {
-    let neighbours = Neighbours::new(state.outline.as_ref()?, design.clutch.sprags.count);
+    let clearance_m = profile::clearances_m(state.outline.as_ref()?, design.clutch.sprags.count);
     Some(move |p: &StaticPoint| {
         let (oc_e, rotation) = match state.curve.closure_at_normal(p.normal_inner_n) {
             Some((_, c)) if p.normal_inner_n > 0.0 => (c.lengths.oc_e.v, c.rotation.v),
             _ => (state.profile.outer_centre_distance_m, 0.0),
         };
-        neighbours.as_ref().map_or(f64::INFINITY, |n| n.clearance_m(oc_e, rotation))
+        clearance_m(oc_e, rotation)
     })
 }
 

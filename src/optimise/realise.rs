@@ -19,7 +19,7 @@ use crate::file::{EditError, other_variables, with_flanks};
 use crate::margin::load_state;
 use crate::numeric::sobol::sobol;
 use crate::profile::Flanks;
-use crate::profile::{MassProperties, Neighbours, Outline, Profile, STEEPEST_RAD};
+use crate::profile::{MassProperties, Outline, Profile, STEEPEST_RAD, clearances_m};
 
 /// Neighbours keep clear by this at least, mm: a choice, above what rounding of the file leaves.
 const CLEAR_MM: f64 = 1e-3;
@@ -107,10 +107,8 @@ impl Evaluate for FlankProblem {
         let (outline, mass) = self.weigh(x)?;
         let [dx, dy] = self.miss_mm(&mass);
         let oc_e = self.profile.outer_centre_distance_m;
-        let neighbours = Neighbours::new(&outline, self.count);
-        let clearance_m =
-            |rotation| neighbours.as_ref().map_or(f64::INFINITY, |n| n.clearance_m(oc_e, rotation));
-        let clear = self.rotations.map(|rotation| clearance_m(rotation) * 1e3 - CLEAR_MM);
+        let clearance_m = clearances_m(&outline, self.count);
+        let clear = self.rotations.map(|rotation| clearance_m(oc_e, rotation) * 1e3 - CLEAR_MM);
         let heavier = mass.mass_kg / self.given_mass_kg - 1.0;
         let (objectives, mut limits) = if self.exact {
             (vec![heavier, -heavier], vec![THERE_MM - dx, THERE_MM + dx, THERE_MM - dy, THERE_MM + dy])

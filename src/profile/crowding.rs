@@ -55,24 +55,24 @@ impl Feature {
 }
 
 /// A direction in which a range of normals of either begins or ends.
-struct Edge {
+struct RangeEnd {
     along: Vector2<f64>,
     /// How far the one reaches along it, and the other against it, m.
     reach_m: [f64; 2],
 }
 
 /// One sprag and its neighbour, `pitch` further round O.
-pub struct Neighbours {
+struct Neighbours {
     features: Vec<Feature>,
     pitch: f64,
     /// Centres of the neighbour's features, seen in the sprag's own frame.
     there: Vec<Vector2<f64>>,
-    edges: Vec<Edge>,
+    ends: Vec<RangeEnd>,
 }
 
 impl Neighbours {
-    /// Of `count` sprags of this outline; none below two.
-    pub fn new(outline: &Outline, count: usize) -> Option<Self> {
+    /// None below two sprags.
+    fn new(outline: &Outline, count: usize) -> Option<Self> {
         (count >= 2).then(|| Self::apart(outline, TAU / count as f64))
     }
 
@@ -95,13 +95,13 @@ impl Neighbours {
         let facing = PI - pitch;
         // far.centre seen by n(phi): c.dir(phi + facing) = (c turned by -facing).n(phi).
         let there = features.iter().map(|far| turned(far.centre, -facing)).collect();
-        let mut neighbours = Self { features, pitch, there, edges: Vec::new() };
+        let mut neighbours = Self { features, pitch, there, ends: Vec::new() };
         let ends = neighbours.features.iter().flat_map(|f| [f.from_azimuth, f.from_azimuth - f.span]);
-        let edges = ends.flat_map(|end| [end, end - facing]).map(|azimuth| {
+        let ends = ends.flat_map(|end| [end, end - facing]).map(|azimuth| {
             let reach_m = [neighbours.support(azimuth), neighbours.support(azimuth + facing)];
-            Edge { along: along(azimuth), reach_m }
+            RangeEnd { along: along(azimuth), reach_m }
         });
-        neighbours.edges = edges.collect();
+        neighbours.ends = ends.collect();
         neighbours
     }
 
@@ -123,15 +123,15 @@ impl Neighbours {
         2.0 * oc_e * (self.pitch / 2.0).sin()
     }
 
-    /// See [`clearance_m`]. In the body frame the neighbour is the body turned by the pitch p and moved by
+    /// Signed clearance, m. In the body frame the neighbour is the body turned by the pitch p and moved by
     /// s = OC_e [dir(p - Omega) - dir(-Omega)], so the gap along n(phi) is s.n - h(phi) - h(phi + pi - p).
-    pub fn clearance_m(&self, oc_e: f64, rotation: f64) -> f64 {
+    fn clearance(&self, oc_e: f64, rotation: f64) -> f64 {
         let facing = PI - self.pitch;
         let s = self.chord(oc_e) * along((PI + self.pitch) / 2.0 - rotation);
         let gap =
             |azimuth: f64| s.dot(&along(azimuth)) - self.support(azimuth) - self.support(azimuth + facing);
-        let at_edge = |e: &Edge| s.dot(&e.along) - e.reach_m[0] - e.reach_m[1];
-        let mut widest = self.edges.iter().map(at_edge).fold(f64::NEG_INFINITY, f64::max);
+        let at_end = |end: &RangeEnd| s.dot(&end.along) - end.reach_m[0] - end.reach_m[1];
+        let mut widest = self.ends.iter().map(at_end).fold(f64::NEG_INFINITY, f64::max);
         for near in &self.features {
             for (far, there) in self.features.iter().zip(&self.there) {
                 let v = s - near.centre - there;
@@ -161,15 +161,19 @@ fn turned(v: Vector2<f64>, angle: f64) -> Vector2<f64> {
 /// the shortest translation that parts them, m. Infinite where there is no neighbour (`count` below 2); minus
 /// infinity, never NaN, where an argument is not finite.
 pub fn clearance_m(outline: &Outline, outer_centre_distance_m: f64, rotation_rad: f64, count: usize) -> f64 {
-    Neighbours::new(outline, count)
-        .map_or(f64::INFINITY, |neighbours| neighbours.clearance_m(outer_centre_distance_m, rotation_rad))
+    clearances_m(outline, count)(outer_centre_distance_m, rotation_rad)
+}
+
+/// [`clearance_m`] by distance OC_e, m, and rotation, rad: what depends on neither is computed once.
+pub fn clearances_m(outline: &Outline, count: usize) -> impl Fn(f64, f64) -> f64 + use<> {
+    let neighbours = Neighbours::new(outline, count);
+    move |oc_e, rotation| neighbours.as_ref().map_or(f64::INFINITY, |n| n.clearance(oc_e, rotation))
 }
 
 /// Least pitch from 0 to `even_rad`, rad, at which neighbours turned alike do not overlap; `even_rad` itself where they do at that. As
 /// in [`clearance_m`] else. Convex sprags that overlap at one pitch overlap at every smaller one, so bisection finds it.
 pub fn least_pitch_rad(outline: &Outline, outer_centre_distance_m: f64, even_rad: f64) -> f64 {
-    let clear =
-        |pitch: f64| Neighbours::apart(outline, pitch).clearance_m(outer_centre_distance_m, 0.0) > 0.0;
+    let clear = |pitch: f64| Neighbours::apart(outline, pitch).clearance(outer_centre_distance_m, 0.0) > 0.0;
     let (mut touches, mut clears) = (0.0, even_rad);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (touches + clears);
@@ -194,7 +198,7 @@ pub fn touch_rotation_rad(
     max_rotation_rad: f64,
 ) -> Option<f64> {
     let neighbours = Neighbours::new(outline, count)?;
-    let clearance = |rotation: f64| neighbours.clearance_m(outer_centre_distance_m, rotation);
+    let clearance = |rotation: f64| neighbours.clearance(outer_centre_distance_m, rotation);
     let radius = neighbours.features.iter().map(|f| f.centre.norm() + f.radius).fold(0.0, f64::max);
     let rate = neighbours.chord(outer_centre_distance_m).abs().min(2.0 * radius);
     let end = max_rotation_rad.min(TAU); // the outline repeats; also NaN: a whole turn

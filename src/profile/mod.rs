@@ -22,7 +22,7 @@ mod reseat;
 mod spiral;
 mod unclosed;
 
-pub use crowding::{Neighbours, clearance_m, least_pitch_rad, touch_rotation_rad};
+pub use crowding::{clearance_m, clearances_m, least_pitch_rad, touch_rotation_rad};
 pub use curvature::PatchCurvature;
 pub use flank::{Flanks, STEEPEST_RAD};
 pub use mass::MassProperties;

@@ -172,7 +172,7 @@ impl WedgeCurve {
     pub(super) fn truncation_of(&self, arcs: &[Arc<ArcTable>]) -> f64 {
         let skip = |k: usize, arc: &ArcTable| match (k, self.effort) {
             (0, Effort::Full) => 2,
-            (0, Effort::Search | Effort::Sketch) => lowest(self.exponent) << arc.cuts,
+            (0, Effort::Search | Effort::Sketch) => lowest(self.exponent, arc.cuts),
             _ => 0,
         };
         arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k, a))).fold(0.0, f64::max)

@@ -24,9 +24,9 @@ const LOGARITHMIC: f64 = 10.0;
 pub(super) const TRUSTED: f64 = 3e-8;
 
 /// Lowest panels of the first arc for which [`TRUSTED`] is not asked: those below 1e-5 of its largest N, where what a closure
-/// leaves unsettled is more than that of OC_g', which is next to nothing there. `exponent`: q of the law.
-pub(super) fn lowest(exponent: f64) -> usize {
-    if exponent == LOGARITHMIC { 2 } else { 1 }
+/// leaves unsettled is more than that of OC_g', which is next to nothing there. `exponent`: q of the law; `cuts`: times that they were halved.
+pub(super) fn lowest(exponent: f64, cuts: u32) -> usize {
+    if exponent == LOGARITHMIC { 2 << cuts } else { 1 << cuts }
 }
 
 /// Times that panels are halved at most where they vary more than they follow: of an ellipse of parameter 1 + x about 1 + 2 x is left.

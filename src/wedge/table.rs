@@ -227,11 +227,12 @@ impl ArcBuilder<'_> {
         let edges = like.map_or_else(|| self.edges(n_from, n_until), |like| like.edges.clone());
         let mut cuts = like.map_or(0, |like| like.cuts);
         let (lanes, windup) = if self.effort != Effort::Full {
-            let skip = if first { lowest(self.exponent) } else { 0 };
+            // Next to one that does, as often as there.
+            let most = if like.is_some() { cuts } else { MOST_CUTS };
             loop {
                 let found = self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until, cuts)?;
-                let does = found.0.truncation(skip << cuts) < self.effort.trusted();
-                if like.is_some() || does || cuts == MOST_CUTS {
+                let skip = if first { lowest(self.exponent, cuts) } else { 0 };
+                if cuts == most || found.0.truncation(skip) < self.effort.trusted() {
                     break found;
                 }
                 cuts += 1;

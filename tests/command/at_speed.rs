@@ -47,8 +47,7 @@ fn rows_at_rest_say_what_speed_changes() {
 #[test]
 fn limits_are_held_at_the_speed_of_the_clutch() {
     let text = std::fs::read_to_string("designs/huang2017-multi-arc.toml").unwrap();
-    let rest = Design::parse(&text, "rest.toml").unwrap();
-    let mut rest = rest;
+    let mut rest = Design::parse(&text, "rest.toml").unwrap();
     rest.limits.equivalent_outer_pa = Some(900e6);
     let mut turning = rest.clone();
     let speed = 6000.0 * std::f64::consts::PI / 30.0;

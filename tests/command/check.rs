@@ -461,7 +461,6 @@ fn overrun_is_that_of_the_speeds_that_the_design_names() {
     );
 }
 
-/// Where nominal and peak torque have pressures of their own, a line says why.
 /// Without a spring the speed alone presses the sprags of an engaging design on, from the first turn.
 #[test]
 fn sprags_without_a_spring_that_the_speed_presses_on_stay_on() {
@@ -489,6 +488,7 @@ fn a_slip_row_of_a_torque_that_turns_round_says_so() {
     assert!(said.contains("lets go: in turns the torque does not keep the clutch engaged"), "{said}");
 }
 
+/// Where nominal and peak torque have pressures of their own, a line says why.
 #[test]
 fn two_allowables_of_one_pressure_are_explained_once() {
     let said = stdout(&run(&["check", "designs/huang2017-multi-arc.toml", "--quiet", "--notes"]));

@@ -159,6 +159,7 @@ fn opening(name: &str, amplitude_nm: f64, mu: Option<f64>, seconds: f64) -> Scen
 fn periods_in_which_the_contact_opens_are_added_too() {
     for (name, amplitude_nm, mu, changes, until_s) in [
         ("high-10", 14.0, None, 26, 2.0),
+        ("high-10", 20.0, None, 40, 2.0),
         // Slides on and on: the balance of drag and torque is reached slowly.
         ("low-10-mu082", 10.0, Some(0.08), 0, 8.0),
     ] {

@@ -10,7 +10,7 @@ use sprag_design::clutch::Clutch;
 use sprag_design::{Design, Follow};
 
 const SEED: u64 = 1;
-const COUNT: usize = 80;
+const COUNT: usize = 150;
 /// Small, so that the test takes seconds: what is tested is that limits are kept, not that they are not met.
 const LIMIT: WorkLimit =
     WorkLimit { tolerance: 1e-6, most_steps: 2_000, most_events: 500, follow: Follow::nobody() };
@@ -47,7 +47,7 @@ fn corners_and_random_cases_end_with_a_name_and_with_numbers() {
 
 #[test]
 fn the_map_is_the_same_for_any_number_of_threads() {
-    let (clutch, some) = (clutch(), cases(SEED, 10));
+    let (clutch, some) = (clutch(), cases(SEED, 24));
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let all = pool.install(|| map(&clutch, &some, &LIMIT));

@@ -43,9 +43,9 @@ fn the_true_error_stays_below_the_tolerance_and_near_the_one_stated() {
         let doubt = exact.error.unwrap();
         // Repeated loss of contact in an engagement leaves no ninth digit.
         let swings = matches!(scenario.kind, ScenarioKind::TorsionalExcitation { .. });
-        let finest = if swings { 5 } else { 4 };
+        let finest = if swings { 10 } else { 8 };
         for k in 0..=finest {
-            let tolerance = 1e-4 * 10_f64.powf(-f64::from(k));
+            let tolerance = 1e-4 * 10_f64.powf(-0.5 * f64::from(k));
             let own = at(&scenario, tolerance);
             let (stated, off) = (own.error.unwrap(), own.off(&exact));
             let name = format!("{}, {tolerance:.1e}", scenario.name);

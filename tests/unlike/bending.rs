@@ -96,7 +96,7 @@ fn a_torque_that_rises_slowly_is_shared_between_races_that_bend_as_statics_share
 fn unlike_sprags_between_races_that_bend_balance_their_energy() {
     for (file, name) in crate::scenes::TRYING {
         let scene = scene(file, name);
-        for (seed, stiffness) in [(2, None), (1, Some(1e8))] {
+        for (seed, stiffness) in [(1, None), (2, None), (1, Some(1e8))] {
             let sharing = Sharing {
                 seed,
                 size_within_m: 3e-6,
