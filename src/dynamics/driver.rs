@@ -61,7 +61,7 @@ where
     pub(super) slope: Option<[f64; N]>,
     pub(super) probed: Option<Probe>,
     /// Path of slip at A that ends the run, as slip under load does, m.
-    pub(super) most_slip_m: Option<f64>,
+    most_slip_m: Option<f64>,
     /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
     pub(super) lengths: [f64; KINDS],
 }
@@ -115,6 +115,12 @@ where
         driver.watch.begin(&mut driver.run);
         driver.audit = settings.energy.then(|| Audit::begin(model, &driver.run));
         driver
+    }
+
+    /// A path of slip at A of `most_slip_m`, where there is one, ends the run, as slip under load does.
+    pub(super) fn end_by_slip(&mut self, most_slip_m: Option<f64>) {
+        self.most_slip_m = most_slip_m;
+        self.run.asked_under_load = most_slip_m.map(|_| 0.0);
     }
 
     /// Integrate to the end, whatever that is.

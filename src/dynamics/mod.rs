@@ -20,6 +20,7 @@ mod drive;
 mod driver;
 mod energy;
 mod events;
+mod foresee;
 mod many;
 mod memory;
 mod model;

@@ -280,6 +280,8 @@ pub struct Run<const N: usize = N_STATE> {
     pub peaks: Peaks,
     /// Largest N_bi at which a contact that held began to slip since the clutch engaged, N; 0: none did.
     pub slip_begins_n: f64,
+    /// Largest |T|/N of a contact that sticks while A carries [`Model::loaded_n`] or more; followed by [`run_while_it_sticks`].
+    pub asked_under_load: Option<f64>,
     /// Located mode changes.
     pub events: u64,
     /// Work of the integrator.
@@ -367,6 +369,7 @@ impl<const N: usize> Run<N> {
             longest_open_s: 0.0,
             peaks: Peaks::NONE,
             slip_begins_n: 0.0,
+            asked_under_load: None,
             events: 0,
             counters: Counters::default(),
             zeno_closures: 0,
@@ -390,8 +393,12 @@ impl<const N: usize> Run<N> {
     /// Whether a contact began to slip under `loaded_n` (N) or more, or the clutch has slipped or overrun by more than `path_m` since it
     /// engaged.
     pub fn has_slipped(&self, loaded_n: f64, path_m: f64) -> bool {
-        let path = self.engaged.map_or(0.0, |e| self.inner.since(&e.inner).distance_m) + self.carried_m;
-        path > path_m || self.slip_begins_n >= loaded_n.max(f64::MIN_POSITIVE)
+        self.slipped_m() > path_m || self.slip_begins_n >= loaded_n.max(f64::MIN_POSITIVE)
+    }
+
+    /// How far the clutch has slipped or overrun since it engaged, m.
+    pub fn slipped_m(&self) -> f64 {
+        self.engaged.map_or(0.0, |e| self.inner.since(&e.inner).distance_m) + self.carried_m
     }
 
     /// A stretch without contact that began at `since` ends at `t` (s); one in which a cage carries the sprags is no contact that is lost.

@@ -1,12 +1,12 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
-use super::events::{FIGURES, N_BE, N_BI, probe};
-use super::model::{Mode, Model};
+use super::events::{FIGURES, N_BE, N_BI, Probe, probe};
+use super::model::{Grip, Mode, Model};
 use super::probes::{Observed, Probes, parabola};
 use super::repeat::Repeat;
 use super::run::{Run, RunSettings, Sample};
 use crate::ode::adaptive::Size;
-use crate::ode::step::Step;
+use crate::ode::step::{Dense, Step};
 use nalgebra::Const;
 
 /// What watches a run.
@@ -15,6 +15,21 @@ pub(super) struct Watch<'a> {
     settings: &'a RunSettings,
     /// The equidistant sample that comes next.
     pub(super) next_sample: usize,
+}
+
+/// A record of a figure: when, s, what, N_bi there, N, and the state.
+struct Top<const N: usize> {
+    t: f64,
+    value: f64,
+    normal_n: f64,
+    state: [f64; N],
+}
+
+/// The larger |T|/N of the contacts that stick in `mode` where A carries [`Model::loaded_n`] or more; else 0.
+fn asked_under_load(model: &Model, mode: &Mode, seen: &Probe) -> f64 {
+    let [inner, outer, _, n_bi, _] = seen.figures;
+    let of = |sticks: bool, asked: f64| if sticks && n_bi >= model.loaded_n { asked } else { 0.0 };
+    of(mode.inner == Grip::Stick, inner).max(of(mode.outer == Grip::Stick && !model.outer_holds, outer))
 }
 
 impl<'a> Watch<'a> {
@@ -42,43 +57,18 @@ impl<'a> Watch<'a> {
         let wants_sample =
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
         let mut dense = None;
-        let fine = 1e-3 * self.settings.tolerance;
-        for (i, (&bound, mut best)) in self.bounds().iter().zip(peaks.figures()).enumerate() {
-            let value = |j: usize| probes.get(j).figures[i].min(bound);
-            for (j, t) in [(0, start), (probes.count() - 1, t_end)] {
-                if value(j) > best {
-                    best = value(j);
-                    peaks.keep(i, t, best, probes.get(j).figures[N_BI]);
-                    let state = if j == 0 { run.state } else { *step.y1() };
-                    self.keep_extreme(run, i, t, state);
-                }
+        for (i, (&bound, best)) in self.bounds().iter().zip(peaks.figures()).enumerate() {
+            let value = |seen: &Probe| seen.figures[i];
+            if let Some(top) = self.record(run, &mut dense, step, probes, rhs, (best, bound), value)? {
+                peaks.keep(i, top.t, top.value, top.normal_n);
+                self.keep_extreme(run, i, top.t, top.state);
             }
-            for j in 0..probes.count() {
-                let enough = best + fine * best.abs();
-                if enough >= bound {
-                    break;
-                }
-                let (left, right) = probes.beside(j);
-                let top = value(j) >= value(left) && value(j) >= value(right);
-                if top && value(j) + probes.overshoot(j, value) > enough {
-                    let d = match &dense {
-                        Some(d) => d,
-                        None => dense.insert(step.dense(rhs, &mut run.counters)?),
-                    };
-                    let figures = |theta: f64| {
-                        let elapsed = theta * length;
-                        probe(model, &mode, start + elapsed, &d.after(elapsed), false).figures
-                    };
-                    let inside = |theta: f64| figures(theta)[i];
-                    let (from, guess, until) = (probes.at(left), probes.extreme(j, value), probes.at(right));
-                    let (theta, found) = highest(from, guess, until, enough, fine * value(j).abs(), inside);
-                    if found > best {
-                        best = found.min(bound);
-                        peaks.keep(i, start + theta * length, best, figures(theta)[N_BI]);
-                        let state = d.after(theta * length);
-                        self.keep_extreme(run, i, start + theta * length, state);
-                    }
-                }
+        }
+        if let Some(best) = run.asked_under_load.filter(|_| run.engaged.is_some()) {
+            let value = |seen: &Probe| asked_under_load(model, &mode, seen);
+            let bounds = (best, f64::INFINITY);
+            if let Some(top) = self.record(run, &mut dense, step, probes, rhs, bounds, value)? {
+                run.asked_under_load = Some(top.value);
             }
         }
         if samples > 0 {
@@ -111,6 +101,61 @@ impl<'a> Watch<'a> {
             repeat.sample_template(t_end, |t| self.sample(mode, t, d.at(t)));
         }
         Ok(())
+    }
+
+    /// The largest `value`, `bound` at most, inside a step of `run` where that is above `best`.
+    #[allow(clippy::too_many_arguments)]
+    fn record<const N: usize>(
+        &self,
+        run: &mut Run<N>,
+        dense: &mut Option<Dense<N>>,
+        step: &Step<N>,
+        probes: &Probes,
+        rhs: &mut Observed,
+        (mut best, bound): (f64, f64),
+        value: impl Fn(&Probe) -> f64,
+    ) -> Result<Option<Top<N>>, ()>
+    where
+        Const<N>: Size,
+    {
+        let (start, length, mode) = (step.t(), step.h(), run.mode);
+        let fine = 1e-3 * self.settings.tolerance;
+        let value_at = |j: usize| value(probes.get(j)).min(bound);
+        let mut top = None;
+        for (j, t) in [(0, start), (probes.count() - 1, start + length)] {
+            if value_at(j) > best {
+                best = value_at(j);
+                let state = if j == 0 { run.state } else { *step.y1() };
+                top = Some(Top { t, value: best, normal_n: probes.get(j).figures[N_BI], state });
+            }
+        }
+        for j in 0..probes.count() {
+            let enough = best + fine * best.abs();
+            if enough >= bound {
+                break;
+            }
+            let (left, right) = probes.beside(j);
+            let is_top = value_at(j) >= value_at(left) && value_at(j) >= value_at(right);
+            if is_top && value_at(j) + probes.overshoot(j, value_at) > enough {
+                let d = match dense {
+                    Some(d) => d,
+                    None => dense.insert(step.dense(rhs, &mut run.counters)?),
+                };
+                let seen = |theta: f64| {
+                    let elapsed = theta * length;
+                    probe(self.model, &mode, start + elapsed, &d.after(elapsed), false)
+                };
+                let inside = |theta: f64| value(&seen(theta));
+                let (from, guess, until) = (probes.at(left), probes.extreme(j, value_at), probes.at(right));
+                let (theta, found) = highest(from, guess, until, enough, fine * value_at(j).abs(), inside);
+                if found > best {
+                    best = found.min(bound);
+                    let (t, state) = (start + theta * length, d.after(theta * length));
+                    top = Some(Top { t, value: best, normal_n: seen(theta).figures[N_BI], state });
+                }
+            }
+        }
+        Ok(top)
     }
 
     /// What no figure can exceed: a real clutch slips at mu_s and has no tension. Pure rolling knows no such bounds.

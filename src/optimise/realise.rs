@@ -20,6 +20,7 @@ use crate::margin::load_state;
 use crate::numeric::sobol::sobol;
 use crate::profile::Flanks;
 use crate::profile::{MassProperties, Outline, Profile, STEEPEST_RAD, clearances_m};
+use rayon::prelude::*;
 
 /// Neighbours keep clear by this at least, mm: a choice, above what rounding of the file leaves.
 const CLEAR_MM: f64 = 1e-3;
@@ -235,6 +236,7 @@ fn nearest(optimum: &Design) -> Result<(Nearest, [(f64, f64); 4]), String> {
         (0..4).map(|d| lo[d] + sobol(u64::from(i), d, seed) * (hi[d] - lo[d])).collect()
     };
     let mut looks: Vec<(f64, f64, Vec<f64>)> = (0..LOOKS)
+        .into_par_iter()
         .filter_map(|i| {
             let x = point(i);
             let e = problem.evaluate(&x).ok()?;
@@ -256,16 +258,13 @@ fn nearest(optimum: &Design) -> Result<(Nearest, [(f64, f64); 4]), String> {
         let [dx, dy] = problem.miss_mm(&mass);
         (e.limits[e.limits.len() - 6..].iter().all(|c| *c >= -1e-8)).then(|| dx.hypot(dy))
     };
-    let mut best: Option<(f64, Vec<f64>)> = None;
-    for (_, _, from) in looks.iter().take(CLIMBS) {
-        let Some(x) = climb(&problem, from).map(|o| o.x) else { continue };
-        if let Some(d) = near(&problem, &x)
-            && best.as_ref().is_none_or(|b| d < b.0)
-        {
-            best = Some((d, x));
-        }
-    }
-    let Some((_, mut x)) = best else {
+    looks.truncate(CLIMBS);
+    let ends: Vec<_> = looks
+        .par_iter()
+        .with_max_len(1)
+        .filter_map(|(_, _, from)| climb(&problem, from).and_then(|o| Some((near(&problem, &o.x)?, o.x))))
+        .collect();
+    let Some((_, mut x)) = ends.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) else {
         return Err("no straight flanks keep the sprags clear of their neighbours".to_owned());
     };
     // Near enough that it may be met exactly: then by the sprag whose mass is nearest to the given one.

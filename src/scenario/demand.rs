@@ -1,14 +1,12 @@
 //! What a scene demands of friction and contact if it is to roll throughout, and how runs are set up.
 
-use super::answer::Verdict;
-use super::figures::ErrorEstimate;
+use super::bisected::{MOST_FRICTION, bisected};
 use super::prepare::Prepared;
-use super::simulate::{SLIPPED_M, Settings, verdict};
+use super::simulate::Settings;
 use crate::dynamics::{
     Jump, Model, Rolling, RollingTrack, Run, RunSettings, Stop, rolling, rolling_quickly, rolling_read_again,
-    rolling_retraced, rolling_tracked, run, run_while_it_sticks,
+    rolling_retraced, rolling_tracked, run,
 };
-use crate::friction::Stribeck;
 
 /// What pure rolling would demand: the basis of slip margin and contact margin.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -219,19 +217,9 @@ fn of_peaks(prepared: &Prepared, r: &Rolling) -> RollingDemand {
 }
 
 /// Without an energy balance and the heat of slip, which cost some fifteen evaluations a step each and of these runs are not asked for.
-fn unaudited(settings: &Settings) -> Settings {
+pub(super) fn unaudited(settings: &Settings) -> Settings {
     Settings { energy: false, slip_heat: false, ..settings.clone() }
 }
-
-/// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
-const MOST_FRICTION: f64 = 1.0;
-/// Smallest coefficient that is tried, about; where even that suffices it is the answer.
-const LEAST_FRICTION: f64 = 1e-3;
-/// Ratio of one coefficient that is tried to the next, on the way down from mu_s: small, because below a friction that does
-/// not suffice another may.
-const DOWN: f64 = 1.2;
-/// Least relative width at which the bisection ends; else it is the tolerance of the runs.
-const NARROWEST: f64 = 1e-12;
 
 /// The pure-rolling run of a prepared scenario that is integrated, and its demand.
 pub(super) fn roll(
@@ -301,81 +289,4 @@ pub(crate) fn stand_by_left_out_s(model: &Model, jumps: &[Jump]) -> f64 {
         (jump.from_s < until_s).then_some(until_s - jump.from_s)
     };
     jumps.first().and_then(of_start).unwrap_or(0.0)
-}
-
-/// What [`bisected`] found.
-struct Bisected {
-    /// mu_req: the middle, by ratio, of the last bracket, so that bisections of different width do not agree by chance.
-    /// `None`: the scene sticks neither at [`MOST_FRICTION`] nor half way there.
-    required: Option<f64>,
-    rhs_evaluations: u64,
-    interrupted: bool,
-}
-
-/// The static friction from which on the scene sticks, by whole runs with slip. The kinetic coefficient is lowered with the
-/// static one where it would exceed it.
-///
-/// 1. Bracket. A coarser search has ended at `near`: a narrow bracket about it, then a wider one. Otherwise from mu_s: down in
-///    steps of [`DOWN`] until the scene slips, where it sticks at mu_s; up to [`MOST_FRICTION`] where it slips there.
-/// 2. Bisect, by ratio, until the bracket is as narrow as the tolerance of the runs.
-///
-/// More friction is not always better, so several brackets may exist; this takes the one next to mu_s.
-///
-/// A scene that stands by in overrun before it is driven stands by shorter: `left_out_s` of it are left out.
-fn bisected(
-    prepared: &Prepared,
-    settings: &Settings,
-    fineness: Fineness,
-    near: Option<f64>,
-    left_out_s: f64,
-) -> Bisected {
-    let mut s = run_settings(prepared, &unaudited(settings), fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
-    let law = prepared.model.friction;
-    let mut model = prepared.model.clone();
-    if left_out_s > 0.0 {
-        s.duration_s -= left_out_s;
-        s.jump_swings = false;
-        model.drive = model.drive.from(left_out_s);
-    }
-    let (mut rhs_evaluations, mut interrupted) = (0, false);
-    let mut sticks = |mu: f64| {
-        model.friction = Stribeck { static_: mu, kinetic: law.kinetic.min(mu), ..law };
-        let (state, mode) = prepared.start_under(&model.friction);
-        let r = run_while_it_sticks(&model, state, mode, &s, SLIPPED_M);
-        rhs_evaluations += r.counters.rhs_evaluations;
-        interrupted |= r.stop == Stop::Interrupted;
-        verdict(prepared, &r, &ErrorEstimate::default()) == Some(Verdict::Sticks)
-            && !r.has_slipped(prepared.model.loaded_n, SLIPPED_M)
-    };
-    let width = fineness.tolerance.max(NARROWEST);
-    // The scene slips at `low` and sticks at `high`.
-    let (mut low, mut high) = (law.static_, law.static_);
-    let mut bracket_near = |by: f64| {
-        let (low, high) = near.map(|mu| (mu / (1.0 + by), mu * (1.0 + by)))?;
-        (sticks(high) && !sticks(low)).then_some((low, high))
-    };
-    if let Some(bracket) = bracket_near(30.0 * width).or_else(|| bracket_near(1e3 * width)) {
-        (low, high) = bracket;
-    } else if sticks(law.static_) {
-        loop {
-            if low < LEAST_FRICTION {
-                return Bisected { required: Some(high), rhs_evaluations, interrupted };
-            }
-            (low, high) = (low / DOWN, low);
-            if !sticks(low) {
-                break;
-            }
-        }
-    } else {
-        let more = [MOST_FRICTION, (low * MOST_FRICTION).sqrt()].into_iter().filter(|&mu| mu > low);
-        match more.into_iter().find(|&mu| sticks(mu)) {
-            Some(mu) => high = mu,
-            None => return Bisected { required: None, rhs_evaluations, interrupted },
-        }
-    }
-    while high > low * (1.0 + width) {
-        let middle = (low * high).sqrt();
-        if sticks(middle) { high = middle } else { low = middle }
-    }
-    Bisected { required: Some((low * high).sqrt()), rhs_evaluations, interrupted }
 }

@@ -4,6 +4,7 @@
 //! Equations: none of its own; definitions of offset, slip margin, contact margin and verdict.
 
 mod answer;
+mod bisected;
 mod demand;
 mod equilibrium;
 mod error;

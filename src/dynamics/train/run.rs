@@ -36,7 +36,7 @@ pub(in crate::dynamics) fn integrate(
     match &model.drive.train {
         None => {
             let mut driver = Driver::<N_STATE>::new(model, state, mode, settings);
-            driver.most_slip_m = most_slip_m;
+            driver.end_by_slip(most_slip_m);
             driver.run()
         }
         Some(train) if N_STATE + 2 * train.free() <= SHORT => {
@@ -63,7 +63,7 @@ where
     model.drive.train = Some(train.clone());
     let whole = std::array::from_fn(|i| if i < N_STATE { state[i] } else { more[i - N_STATE] });
     let mut driver = Driver::<N>::new(&model, whole, mode, settings);
-    driver.most_slip_m = most_slip_m;
+    driver.end_by_slip(most_slip_m);
     shortened(driver.run(), train)
 }
 
@@ -99,6 +99,7 @@ fn shortened<const N: usize>(run: Run<N>, train: Train) -> Run {
         longest_open_s: run.longest_open_s,
         peaks: run.peaks,
         slip_begins_n: run.slip_begins_n,
+        asked_under_load: run.asked_under_load,
         events: run.events,
         counters: run.counters,
         zeno_closures: run.zeno_closures,
