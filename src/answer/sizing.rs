@@ -220,7 +220,8 @@ fn shown_broken(margins: &[Margin]) -> Vec<String> {
     }
     let line = |(scene, rows): (Option<&str>, Vec<&Margin>)| {
         let codes: Vec<String> = rows.iter().map(|r| r.code()).collect();
-        let opens = rows.iter().any(|r| r.is_contact() || r.demand == Demand::NoneSuffices);
+        let opens =
+            rows.iter().any(|r| r.is_contact() || matches!(r.demand, Demand::NoneSuffices | Demand::LetsGo));
         let means = match (scene, opens) {
             (Some(scene), true) => format!(
                 "in scene {scene} the sprags lose contact for a while, which no friction prevents, and strike again; \

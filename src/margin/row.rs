@@ -104,6 +104,8 @@ pub enum Demand {
     MoreThan(f64),
     /// More friction than there is: the contact would open, or the scene does not start.
     NoneSuffices,
+    /// The scene's torque does not keep the clutch engaged, and no friction holds it: it is to let go.
+    LetsGo,
     /// The torque, or the scene, goes beyond the end of the curve.
     Overloaded {
         /// Demand at the end of the curve; `None` of friction, which is a demand of the whole scene.
@@ -123,7 +125,7 @@ impl Demand {
         match self {
             Self::Value(value) | Self::MoreThan(value) => Some(value),
             Self::Overloaded { at_end, .. } => at_end,
-            Self::NoneSuffices | Self::NotComputed(_) | Self::Unknown => None,
+            Self::NoneSuffices | Self::LetsGo | Self::NotComputed(_) | Self::Unknown => None,
         }
     }
 }
@@ -224,6 +226,7 @@ impl Margin {
             Demand::Overloaded { .. }
             | Demand::MoreThan(_)
             | Demand::NoneSuffices
+            | Demand::LetsGo
             | Demand::NotComputed(_) => Left::Lost,
         }
     }
@@ -253,11 +256,6 @@ impl Margin {
     pub fn slip_measure(&self) -> Option<f64> {
         let wanted = if self.left() == Left::Lost { 0.0 } else { self.reference };
         self.is_slip().then_some((1.0 + self.margin()) * (1.0 + wanted) - 1.0)
-    }
-
-    /// Whether no friction holds the clutch in a scene whose torque is to let it go.
-    pub fn lets_go(&self) -> bool {
-        self.demand == Demand::NoneSuffices && self.aside.is_some()
     }
 
     /// Whether it is the friction that a scenario needs.

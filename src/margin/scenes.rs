@@ -85,7 +85,8 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
         let (known, allowable, reference) = match limit.of {
             Of::Slip => {
                 let need = found.and_then(|d| d.required_friction);
-                let known = need.map_or(Demand::NoneSuffices, Demand::Value);
+                let none = if d.is_to_let_go { Demand::LetsGo } else { Demand::NoneSuffices };
+                let known = need.map_or(none, Demand::Value);
                 (known, d.static_friction / (1.0 + wanted), wanted)
             }
             Of::Contact => match d.contact_margin() {
@@ -99,11 +100,10 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
             }
             _ => return None,
         };
-        let lets_go = d.is_to_let_go && matches!((limit.of, known), (Of::Slip, Demand::NoneSuffices));
         let aside = match (not_computed, &overload) {
             (Some(why), _) => Some(format!("not computed, {why}")),
             (None, Some(why)) => Some(format!("overloaded, {why}")),
-            (None, None) => lets_go.then(|| LETS_GO.to_owned()),
+            (None, None) => (known == Demand::LetsGo).then(|| LETS_GO.to_owned()),
         };
         let row = Margin { aside, reference, ..Margin::new(limit, demand(known), allowable) };
         Some(of_scene(row, name, required))

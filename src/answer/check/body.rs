@@ -419,7 +419,7 @@ pub fn demand_cell(r: &Margin) -> Cell {
         // Friction has no demand at all then, a torque one at the end of the curve.
         Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
         Demand::Overloaded { at_end: None, .. } => OVERLOADED.into(),
-        Demand::NoneSuffices => no_friction(r.lets_go()).into(),
+        Demand::NoneSuffices | Demand::LetsGo => no_friction(r.demand == Demand::LetsGo).into(),
         Demand::NotComputed(_) | Demand::Unknown => NOT_COMPUTED.into(),
     }
 }
@@ -447,7 +447,7 @@ pub fn unit_cell(r: &Margin) -> Cell {
 /// beyond the end of the curve, its torque does and nothing breaks it before, or a run met its limit of work.
 pub fn in_place_of_margin(r: &Margin) -> Option<&'static str> {
     match r.demand {
-        Demand::NoneSuffices => Some(NONE),
+        Demand::NoneSuffices | Demand::LetsGo => Some(NONE),
         Demand::Overloaded { .. } if r.left() == Left::Lost => Some(OVERLOADED),
         _ if r.is_not_reached() => Some(NOT_REACHED),
         Demand::NotComputed(_) => Some(NOT_COMPUTED),

@@ -74,7 +74,7 @@ fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
     let unknown = [Margin { demand: Demand::NotComputed("step limit"), ..rows[0].clone() }];
     assert!(text(&unknown).contains(NOT_COMPUTED));
     // Friction is not to blame where the torque lets the clutch go.
-    let lets_go = [Margin { aside: Some("its torque".to_owned()), ..rows[0].clone() }];
+    let lets_go = [Margin { demand: Demand::LetsGo, ..rows[0].clone() }];
     assert!(text(&lets_go).contains(LETS_GO) && !text(&lets_go).contains(NONE_SUFFICES));
     let unknown = CheckBody::new(&unknown, source(None));
     assert_eq!(unknown.held(), None);

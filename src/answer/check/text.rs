@@ -33,14 +33,14 @@ impl Notes {
         let all = body.other_remarks().into_iter().chain(asides(design, rows)).chain(dent);
         let mut of_design: Vec<String> = all.map(|line| greek(&line)).collect();
         let lets_go: Vec<&str> =
-            rows.iter().filter(|r| r.lets_go()).filter_map(|r| r.scene.as_deref()).collect();
+            rows.iter().filter(|r| r.demand == Demand::LetsGo).filter_map(|r| r.scene.as_deref()).collect();
         if !lets_go.is_empty() {
             of_design.push(format!(
                 "{LETS_GO}: in {} the torque does not keep the clutch engaged, and it overruns, whatever the friction",
                 lets_go.join(", ")
             ));
         }
-        if rows.iter().any(|r| r.demand == Demand::NoneSuffices && !r.lets_go()) {
+        if rows.iter().any(|r| r.demand == Demand::NoneSuffices) {
             of_design.push(format!("{NONE_SUFFICES}: contact would open, whatever the friction"));
         }
         if rows.iter().any(|r| r.overloaded() && r.demand.value().is_none()) {
