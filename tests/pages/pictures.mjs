@@ -1,11 +1,13 @@
-// Pictures of pages and of the studio: node pictures.mjs FOLDER BINARY DESIGN PAGE.html ... Ends with 1 where a page is wider than its
+// Pages and the studio as they are seen, each printed into FOLDER: node pictures.mjs FOLDER BINARY DESIGN PAGE.html ... Ends with 1 where a page is wider than its
 // window, a table is scrolled at 1280 px, a figure is wider than a phone or has letters below 11 px there, or where neither its answer nor the drawing is in the first screen. STUDIES: names of pages that show no one clutch.
+// PICTURES: the folder of pictures, where there are to be any.
 import { spawn } from "node:child_process";
 import path from "node:path";
 import { chromium } from "playwright-core";
 
 const HEIGHT = { 1280: 900, 390: 844 };
 const [folder, binary, design, ...files] = process.argv.slice(2);
+const pictures = process.env.PICTURES;
 const studies = (process.env.STUDIES || "").split(" ");
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM || "/usr/bin/chromium", args: ["--no-sandbox"] });
 let found = 0;
@@ -46,7 +48,7 @@ async function look(name, address, ready) {
       if (!studies.includes(name) && (await top("figure.true")) > HEIGHT[width] - 230) say(`${name}: no drawing in the first screen`);
     }
     // Of the many pages of `check` the sheets do.
-    if (!name.startsWith("check-")) await page.screenshot({ path: `${folder}/${name}-${width}.png`, fullPage: true });
+    if (pictures && !name.startsWith("check-")) await page.screenshot({ path: `${pictures}/${name}-${width}.png`, fullPage: true });
     if (width === 1280) await page.pdf({ path: `${folder}/${name}.pdf`, format: "A4", preferCSSPageSize: true });
     await page.close();
   }
