@@ -98,8 +98,13 @@ pub(super) fn bisected(
         Trial { mu, sticks, used }
     };
     let width = fineness.tolerance.max(NARROWEST);
-    let found = bracket(&mut at, law.static_, near, width);
-    let required = found.map(|found| match found {
+    let required = closed(&mut at, law.static_, near, width);
+    Bisected { required, rhs_evaluations, interrupted }
+}
+
+/// The middle of the bracket that is narrower than `width`, as a part of it.
+fn closed(at: &mut dyn FnMut(f64) -> Trial, mu_s: f64, near: Option<f64>, width: f64) -> Option<f64> {
+    bracket(at, mu_s, near, width).map(|found| match found {
         Ok(mut bracket) => {
             while bracket.is_wider_than(width) {
                 let mu = bracket.next(width);
@@ -108,8 +113,7 @@ pub(super) fn bisected(
             bracket.middle()
         }
         Err(least) => least,
-    });
-    Bisected { required, rhs_evaluations, interrupted }
+    })
 }
 
 /// The first bracket; `Some(Err)`: what suffices where next to nothing does; `None`: nothing suffices.
@@ -136,12 +140,14 @@ fn bracket(
     {
         return Some(Ok(Bracket { before: Some(low), ..found }));
     }
+    let mut before = None;
     while low.mu >= LEAST_FRICTION {
         let high = low;
         low = at(high.mu / DOWN);
         if !low.sticks {
-            return Some(Ok(Bracket::new(low, high)));
+            return Some(Ok(Bracket { before, ..Bracket::new(low, high) }));
         }
+        before = Some(high);
     }
     Some(Err(low.mu))
 }
@@ -202,7 +208,7 @@ impl Bracket {
         let moved = (estimate / self.estimate).ln().abs();
         self.estimate = estimate;
         let [below, above] = [estimate / self.low.mu, self.high.mu / estimate].map(f64::ln);
-        let doubt = if moved.is_nan() { below.min(above) } else { moved };
+        let doubt = moved.min(below.min(above));
         let beside = (DOUBT * doubt).max(width / 3.0);
         let trial = if below < above { estimate * (1.0 + beside) } else { estimate / (1.0 + beside) };
         match self.long < PATIENCE {
@@ -225,5 +231,54 @@ impl Bracket {
         }
         let halved = (self.high.mu / self.low.mu).ln() <= 0.5 * before;
         self.long = if halved { 0 } else { self.long + 1 };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDTH: f64 = 1e-7;
+
+    /// What is found with mu_s where a run uses `used`, and by how many runs.
+    fn found(mu_s: f64, near: Option<f64>, used: impl Fn(f64) -> [f64; KINDS]) -> (Option<f64>, usize) {
+        let mut runs = 0;
+        let mut at = |mu: f64| {
+            runs += 1;
+            let used = used(mu);
+            Trial { mu, sticks: used.iter().all(|used| *used < 1.0), used }
+        };
+        (closed(&mut at, mu_s, near, WIDTH), runs)
+    }
+
+    #[test]
+    fn what_decides_is_closed_in_on_in_few_runs() {
+        let wanted = 0.0794;
+        // |T|/N under load, which knows the slip in between a little; the force at which slip begins; the path, ever steeper.
+        let asked = |mu: f64| [wanted * (1.0 + 1e-3 * (mu - wanted)) / mu, 0.0, 0.0];
+        let force = |mu: f64| [0.2, (wanted / mu).powf(0.98 + 0.1 * mu), 0.0];
+        let path = |mu: f64| [0.2, 0.0, 1.0 - 0.3 * (mu / wanted).ln() + 0.05 * (mu / wanted).ln().powi(2)];
+        for (of, most) in [(&asked as &dyn Fn(f64) -> [f64; KINDS], 9), (&force, 13), (&path, 14)] {
+            for mu_s in [0.12, 0.06] {
+                let (mu, runs) = found(mu_s, None, of);
+                let off = (mu.unwrap() / wanted - 1.0).abs();
+                assert!(off < WIDTH && runs <= most, "{mu_s}: {off:e} after {runs}");
+                let (mu, runs) = found(mu_s, Some(wanted * (1.0 + 1e-6)), of);
+                assert!(
+                    (mu.unwrap() / wanted - 1.0).abs() < WIDTH && runs <= 9,
+                    "{mu_s}: {runs} beside a guess"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn where_nothing_tells_the_bracket_is_halved() {
+        let step = |mu: f64| if mu < 0.0794 { [1.0; KINDS] } else { [0.3, 0.0, 0.0] };
+        let (mu, runs) = found(0.12, None, step);
+        assert!((mu.unwrap() / 0.0794 - 1.0).abs() < WIDTH && runs < 34, "{runs}");
+        // Nothing suffices; next to nothing does.
+        assert_eq!(found(0.12, None, |_| [0.0, 2.0, 0.0]).0, None);
+        assert!(found(0.12, None, |_| [0.0; KINDS]).0.unwrap() < LEAST_FRICTION);
     }
 }
