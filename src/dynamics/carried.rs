@@ -44,13 +44,21 @@ pub(super) struct Ride {
     pub tilt_rad: f64,
     /// What opens it on its stop more than the spring closes it where B presses nothing, N m: above 0 it is off.
     pub off_nm: f64,
+    /// By how much N_be changes with the cage's acceleration, N s^2: of a sprag that tilts nearly so.
+    pub per_w: f64,
+    /// Size of what N_be is left over from, N.
+    pub size_n: f64,
 }
 
-/// N_be and N_bi of a sprag at one tilt, N, and what neither bears of the force outward at P, N.
+/// N_be and N_bi of a sprag at one tilt, N, and what neither bears of the force outward at P, N; the others as of [`Ride`].
 struct Balanced {
     n_be: f64,
     n_bi: f64,
     outward_n: f64,
+    per_w: f64,
+    /// The same where the force outward at P is to stay what it is.
+    poised_per_w: f64,
+    size_n: f64,
 }
 
 /// The cage's acceleration w without B, rad/s^2, and by how much a newton of N_be changes it.
@@ -70,9 +78,12 @@ impl Carried {
         let stop = balanced(model, &on_stop, mu, spin, false);
         let opens_nm = on_stop.lifting_nm() + spin[0] * on_stop.slewing_kg_m2(model.inertia_kg_m2);
         let off_nm = opens_nm - spring_moment_nm(model, on_stop.alpha);
-        let of = |b: Balanced, tilt_rad: f64| Ride { n_be: b.n_be, n_bi: b.n_bi, tilt_rad, off_nm };
+        let of = |b: Balanced, tilt_rad: f64| {
+            let Balanced { n_be, n_bi, per_w, size_n, .. } = b;
+            Ride { n_be, n_bi, tilt_rad, off_nm, per_w, size_n }
+        };
         if stop.n_be <= 0.0 {
-            return of(Balanced { n_be: 0.0, ..stop }, most_rad);
+            return of(Balanced { n_be: 0.0, per_w: 0.0, ..stop }, most_rad);
         }
         let inside = balanced(model, &touching, mu, spin, true);
         if inside.n_bi >= 0.0 {
@@ -85,7 +96,8 @@ impl Carried {
         let left = |tilt: f64| between(tilt).outward_n;
         let tilt = root::bracketed(0.0, most_rad, left(0.0), stop.outward_n, 1e-15 * most_rad, left);
         let tilt = tilt.unwrap_or(most_rad);
-        of(between(tilt), tilt)
+        let poised = between(tilt);
+        of(Balanced { per_w: poised.poised_per_w, ..poised }, tilt)
     }
 }
 
@@ -100,16 +112,20 @@ fn balanced(model: &Model, held: &Held, mu: f64, [w, w_per_n]: Spin, rests: bool
     let outward_b = held.outward_n(1.0, &b) - outward;
     let outward_w = held.outward_of_slewing_kg_m();
     let slewing = held.slewing_kg_m2(model.inertia_kg_m2) - of_a * outward_w;
-    let closes = spring_moment_nm(model, held.alpha) - held.lifting_nm() + of_a * outward - slewing * w;
-    let n_be = closes / (of_b - of_a * outward_b + slewing * w_per_n);
+    let (spring, lifting) = (spring_moment_nm(model, held.alpha), held.lifting_nm());
+    let closes = spring - lifting + of_a * outward - slewing * w;
+    let lever = of_b - of_a * outward_b + slewing * w_per_n;
+    let n_be = closes / lever;
+    let size_n = (spring.abs() + lifting.abs() + (of_a * outward).abs() + (slewing * w).abs()) / lever.abs();
     let outward_n = outward + outward_b * n_be + outward_w * (w + w_per_n * n_be);
     let n_bi = if rests { -outward_n / held.a_ahead_of_p().cos() } else { 0.0 };
-    Balanced { n_be, n_bi, outward_n }
+    let (per_w, poised_per_w) = (-slewing / lever, -outward_w / outward_b);
+    Balanced { n_be, n_bi, outward_n, per_w, poised_per_w, size_n }
 }
 
 impl Model {
     /// Friction at B of a carried sprag that slides by `v_b`.
-    fn mu_outer(&self, v_b: f64) -> f64 {
+    pub(super) fn mu_outer(&self, v_b: f64) -> f64 {
         self.friction.coefficient(v_b.abs())
     }
 
@@ -149,13 +165,27 @@ impl Model {
     ) -> Forces {
         let Some(carried) = &self.carried else { return Forces::NONE };
         let (ride, inner) = self.ride(carried, t, p, rates, load_nm[0], mode.is_off());
+        let forces = self.riding(mode, t, p, rates, &ride, [inner, 0.0]);
+        let of_b = -self.count * p.ob * forces.t_be;
+        let outer = self.held_rad_s2()[1].unwrap_or((load_nm[1] + of_b) / self.outer_inertia_kg_m2);
+        Forces { acceleration: [0.0, inner, inner, outer], ..forces }
+    }
+
+    /// The forces of one that rides so while the races go at `races`, rad/s^2.
+    pub(super) fn riding(
+        &self,
+        mode: &Mode,
+        t: f64,
+        p: &WedgePoint,
+        rates: &[f64; 4],
+        ride: &Ride,
+        [inner, outer]: [f64; 2],
+    ) -> Forces {
         let (v_a, v_b) = self.slip_velocities(p, rates);
         let n_be = if mode.is_off() { 0.0 } else { ride.n_be };
         let t_be = -self.mu_outer(v_b) * n_be;
         let spin = self.mean_speed(t).1;
         let t_bi = (t_be * p.ob - self.orbit_kg_m2(p) * (inner + spin)) / p.oa;
-        let of_b = -self.count * p.ob * t_be;
-        let outer = self.held_rad_s2()[1].unwrap_or((load_nm[1] + of_b) / self.outer_inertia_kg_m2);
         Forces { acceleration: [0.0, inner, inner, outer], t_bi, t_be, n_bi: ride.n_bi, n_be, v_a, v_b }
     }
 

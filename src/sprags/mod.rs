@@ -6,15 +6,16 @@
 //! Every sprag has its own curve (its size, and its tracks where they are out of round as made), its own friction (static and kinetic in one ratio) and its own lag (its
 //! gap, or its size where a cage holds all), drawn and given as for statics. An inner track out of round turns with its race. Where the axes of the races do not meet,
 //! or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the races bend
-//! under sprags unlike one another ([`Rings`]), without inertia.
+//! under sprags unlike one another ([`Rings`]), without inertia. A cage that the inner race drives carries them where the axes meet and are
+//! held; each has its own way to the stop from where it touches both races.
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start, TrackWave};
 use crate::dynamics::{
-    Axes, AxisBearing, ManyRun, ManyStart, OffCentre, Rings, RunSettings, SpragApproach, SpragGroup,
+    Axes, AxisBearing, Carried, ManyRun, ManyStart, OffCentre, Rings, RunSettings, SpragApproach, SpragGroup,
     StaysWith, Stop, run_many, settled_off_centre, settled_together,
 };
 use crate::friction::Stribeck;
-use crate::scenario::{NoScenario, Prepared, Settings, prepare};
+use crate::scenario::{NoScenario, Prepared, Settings, prepare, touch};
 use crate::sharing::{Asked, Idle, OneSprag, Unlike};
 use crate::wedge::{AxisTurns, NoCurve, OverEnd, SpragDeviation, WedgeCurve};
 use rayon::prelude::*;
@@ -100,6 +101,8 @@ pub struct EachSprag {
     pub largest_nm: f64,
     /// Races that bend; `None`: nothing in the scene feels that, there are too many sprags, or the law of contact is too stiff.
     pub bends: Option<BendingRaces>,
+    /// What the springs of all sprags press with at most, N m, where a driven cage carries them; `None`: none does.
+    pub carried_spring_nm: Option<f64>,
 }
 
 /// Races that bend in a scene.
@@ -167,11 +170,7 @@ impl Many {
         if !scenario.drivetrain.is_empty() {
             return Err(NoEachSprag::Drivetrain);
         }
-        let alike = prepare(scenario).map_err(NoEachSprag::NoScenario)?;
-        if alike.model.carried.is_some() && alike.free_run.is_some() {
-            let why = NoScenario::DrivenCage("a run of sprags one by one");
-            return Err(NoEachSprag::NoScenario(why));
-        }
+        let mut alike = prepare(scenario).map_err(NoEachSprag::NoScenario)?;
         let clutch = &scenario.clutch;
         let curve = &alike.model.curve;
         let at_rest = if curve.speed_rad_s() == 0.0 {
@@ -183,6 +182,19 @@ impl Many {
         };
         let unlike = Unlike::new(clutch, sharing, &at_rest, 0.0);
         let axes = axes(clutch, &unlike, sharing, curve.speed_rad_s());
+        if axes.is_some() && alike.model.carried.take().is_some() && alike.free_run.is_some() {
+            let why = NoScenario::DrivenCage("a run of sprags between axes that lie apart or give way");
+            return Err(NoEachSprag::NoScenario(why));
+        }
+        let curve = &alike.model.curve;
+        let touch = match alike.model.carried {
+            None => None,
+            Some(_) => {
+                let profile = clutch.profile().map_err(|e| NoEachSprag::NoScenario(NoScenario::Profile(e)))?;
+                let touch = touch(clutch, &profile, curve.speed_rad_s());
+                clutch.cage.zip(Some(touch.map_err(|e| NoEachSprag::NoScenario(NoScenario::Curve(e)))?))
+            }
+        };
         let first = unlike.lag_rad.iter().flatten().copied().fold(f64::INFINITY, f64::min);
         if first == f64::INFINITY {
             return Err(NoEachSprag::NoneCarries);
@@ -220,7 +232,13 @@ impl Many {
             let kinetic = law.kinetic * (sprag.friction / law.static_);
             let friction = Stribeck { static_: sprag.friction, kinetic, ..law };
             let count = group.iter().filter(|of| **of == Some(g)).count();
-            let model = alike.model.of_sprags(count, own, friction);
+            let mut model = alike.model.of_sprags(count, own, friction);
+            if let Some((cage, touch)) = &touch
+                && made_bits(&unlike, i) != [0; 3]
+            {
+                let own = touch.of_sprag(unlike.as_made(i)).map_err(|why| NoEachSprag::Curve(i, why))?;
+                model.carried = Some(Carried::new(clutch, cage, &own));
+            }
             Ok(SpragGroup { model, lag_rad: lag(i), over: None, off_centre: None })
         };
         let built: Vec<_> = kinds.par_iter().enumerate().map(of).collect();
@@ -522,6 +540,10 @@ pub fn each_sprag(
         lowest_mode_hz: rings.lowest_mode_hz,
         scene_hz: scene_hz(&scenario.clutch, &many.alike, at_rest.as_ref(), largest_nm),
     });
+    let spring_nm = scenario.clutch.sprags.count as f64
+        * scenario.clutch.spring.stiffness_nm_per_rad
+        * many.alike.model.alpha_max_rad.abs();
+    let carried_spring_nm = many.alike.model.carried.map(|_| spring_nm);
     let Many { sprags, idle, group, axes, .. } = many;
     // Held axes that meet are there for the inner track alone.
     let axes = axes.filter(|axes| axes.offset_m > 0.0 || axes.bearing.is_some());
@@ -539,6 +561,7 @@ pub fn each_sprag(
         off_centre,
         largest_nm,
         bends,
+        carried_spring_nm,
     })
 }
 

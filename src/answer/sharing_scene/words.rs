@@ -146,9 +146,17 @@ impl SharingSceneAnswer<'_> {
         ))
     }
 
-    /// What a driven cage does in overrun; `None`: there is none.
+    /// What is left out of a driven cage, or all of it; `None`: there is none.
     fn cage_drives(&self) -> Option<LeftOut> {
         self.design.clutch.cage?;
+        if let Some(spring_nm) = self.found.carried_spring_nm {
+            return Some(LeftOut::new(
+                "what the driven cage does to the sprags",
+                "its inertia is the inner race's; its pockets leave sprags under load their play, none to those that it carries, which \
+                 stand as between races that stay round; the spring reacts as on a free cage",
+                &format!("at most {} of the clutch while A carries", Unit::NewtonMetre.show(spring_nm, 2)),
+            ));
+        }
         let stays = |i: &usize| self.course(*i).is_none_or(|c| c.open_s == 0.0 && c.path_m == [0.0; 2]);
         let moved = (0..self.found.sprags.len()).filter(|i| !stays(i)).count();
         let cost = match moved {
@@ -157,7 +165,8 @@ impl SharingSceneAnswer<'_> {
         };
         Some(LeftOut::new(
             "the cage that carries the sprags in overrun",
-            "in overrun they ride with the outer race; a scene that begins in overrun is refused",
+            "between axes that lie apart or give way, and on an inner track out of round, they ride with the outer race in overrun; a scene \
+             that begins so is refused",
             &cost,
         ))
     }

@@ -44,6 +44,10 @@ impl<const N: usize> Going<'_, N> {
         let mut known: Vec<_> = before.iter().map(|motion| as_it_is(&motion.mode)).collect();
         for (g, fell) in falls.iter().enumerate() {
             let (mode, Some(seen)) = (before[g].mode, self.rhs.seen[g]) else { continue };
+            if mode.place == Place::Carried {
+                known[g] = self.catch_up(g, fell).unwrap_or(known[g]);
+                continue;
+            }
             // T_bi = -sgn(v_A) mu N, T_be = +sgn(v_B) mu N.
             let slips = [-seen.forces.t_bi, seen.forces.t_be];
             for (contact, (which, grip)) in [(INNER, mode.inner), (OUTER, mode.outer)].into_iter().enumerate()
@@ -57,7 +61,9 @@ impl<const N: usize> Going<'_, N> {
             }
         }
         let mut left: Vec<usize> = (0..falls.len()).filter(|&g| falls[g][LOWER] || falls[g][UPPER]).collect();
-        let mut jumps = vec![false; falls.len()];
+        let taken = self.take_along(falls);
+        let mut jumps = vec![!taken.is_empty(); falls.len()];
+        left.retain(|g| !taken.contains(g));
         while let Some(&g) = left.first() {
             if before[g].waits {
                 self.touches(g);
@@ -93,7 +99,8 @@ impl<const N: usize> Going<'_, N> {
 
     /// The velocities of some have jumped: slips go on in the sense that they have now.
     fn turn_round(&mut self, known: &mut [[Known; 2]], jumps: &[bool]) {
-        for (g, motion) in self.rhs.motions.iter().enumerate().filter(|(g, m)| jumps[*g] && !m.waits) {
+        let free = |m: &SpragMotion| !m.waits && m.mode.place != Place::Carried;
+        for (g, motion) in self.rhs.motions.iter().enumerate().filter(|(g, m)| jumps[*g] && free(m)) {
             let (model, own) = (&self.groups[g].model, state_of(&self.y, g));
             let q = self.rhs.stands(g, motion.mode.place, self.t_s, &self.y, &own);
             let rates = self.rhs.goes(g, &motion.mode, &q, &self.y, &own);
@@ -223,6 +230,14 @@ impl<const N: usize> Going<'_, N> {
                 }
             }
         }
+        let carried = |g: usize| before[g].mode.place == Place::Carried && falls[g].contains(&true);
+        if (0..falls.len()).any(carried) {
+            let (t, y) = (self.t_s, self.y);
+            self.rhs.look::<true>(t, &y);
+        }
+        for g in (0..falls.len()).filter(|&g| carried(g)) {
+            known[g] = self.catch_up(g, &falls[g]).unwrap_or(known[g]);
+        }
         if !self.choose(&known, &before, |_| false) {
             return false;
         }
@@ -289,7 +304,7 @@ impl<const N: usize> Going<'_, N> {
             let under_load = (a || b) && p.n_bi >= model.loaded_n;
             course.slips = under_load.then_some(FirstSlip { t_s: self.t_s, inner: a, normal_n: p.n_bi });
         }
-        match (mode.place == Place::Open, self.open_since[g]) {
+        match (mode.place == Place::Open || mode.is_off(), self.open_since[g]) {
             (true, None) if course.catches_s.is_some() => self.open_since[g] = Some(self.t_s),
             (false, Some(since)) => {
                 course.open_s += self.t_s - since;

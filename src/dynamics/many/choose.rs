@@ -13,7 +13,7 @@
 use super::rhs::Rhs;
 use super::state_of;
 use crate::dynamics::choose::{Known, choose_by};
-use crate::dynamics::model::{Grip, Mode};
+use crate::dynamics::model::{Grip, Mode, Place};
 use nalgebra::Vector4;
 
 /// Steps of Newton's method, halvings included: two or three are needed.
@@ -33,7 +33,8 @@ pub(super) fn as_it_is(mode: &Mode) -> BothKnown {
 impl Rhs<'_> {
     /// Bring all groups into their consistent modes at (t, y), their places as they are. False: one contradicts itself.
     pub(super) fn choose(&mut self, t: f64, y: &[f64], known: &[BothKnown]) -> bool {
-        for (motion, known) in self.motions.iter_mut().zip(known) {
+        let free = self.motions.iter_mut().zip(known).filter(|(m, _)| m.mode.place != Place::Carried);
+        for (motion, known) in free {
             // Where a contact has been released it slips, whatever comes of the others.
             motion.mode.inner = released(known[0], motion.mode.inner);
             motion.mode.outer = released(known[1], motion.mode.outer);
@@ -91,6 +92,11 @@ impl Rhs<'_> {
             }
             let model = &group.model;
             let sight = self.stands_there(g, motion.mode.place, t, y, &state_of(y, g));
+            if motion.mode.place == Place::Carried {
+                miss -= self.acts(g, &sight, &self.carried_under(g, t, y, &sight.point, x));
+                modes.push(motion.mode);
+                continue;
+            }
             let [inner, outer] = known[g];
             let found = choose_by(model, &sight.point, motion.mode.place, inner, outer, |mode| {
                 self.between(g, mode, t, y, x)

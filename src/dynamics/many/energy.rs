@@ -39,7 +39,7 @@ impl Rhs<'_> {
         // A sprag may be open beyond first contact, and pressed before it.
         moves
             + match motion.mode.place {
-                Place::Open => model.open_energy_j(touch, own[0]),
+                Place::Open | Place::Carried => model.open_energy_j(touch, own[0]),
                 _ if own[0] < touch => {
                     let p = model.curve.in_arc(0, touch);
                     model.count * (p.t_static * p.oa * (p.rho_i + p.rho_e) * (own[0] - touch) + beside)

@@ -23,8 +23,8 @@ struct TurnsAlong {
 
 impl<const N: usize> Going<'_, N> {
     /// Inertia of races (kg m^2) and axis (kg) with all groups but `those`: a sprag that rolls on both races turns along, one that rolls on
-    /// one alone keeps the momentum of alpha.
-    fn inertia_with_all_but(&self, those: &[usize]) -> Matrix4<f64> {
+    /// one alone keeps the momentum of alpha, one that a cage carries goes with the inner race.
+    pub(super) fn inertia_with_all_but(&self, those: &[usize]) -> Matrix4<f64> {
         let mut sum = Matrix4::from_diagonal(&self.rhs.inertia());
         for other in (0..self.groups.len()).filter(|other| !those.contains(other)) {
             let Some(turns) = self.turns_along(other) else { continue };
@@ -54,6 +54,13 @@ impl<const N: usize> Going<'_, N> {
         let (p, sees) = (sight.point, self.sees(&sight));
         let (n, i) = (model.count, model.inertia_kg_m2);
         let orbit = model.mass_kg * p.oc_g * p.oc_g;
+        if motion.mode.place == Place::Carried {
+            return Some(TurnsAlong {
+                inertia: Matrix2::new(n * (i + orbit), 0.0, 0.0, 0.0),
+                takes: [0.0; 2],
+                sees,
+            });
+        }
         let inner = motion.mode.inner == Grip::Stick && motion.mode.place != Place::Open;
         let outer = motion.mode.outer == Grip::Stick;
         // One race alone: phi' = theta' + s alpha', s its rolling ratio with its sign.
@@ -84,8 +91,9 @@ impl<const N: usize> Going<'_, N> {
         Some(TurnsAlong { inertia, takes, sees })
     }
 
-    /// The rates of races (rad/s) and axis (m/s) jump by `more` as groups `those` cross a junction: the others follow. Whether they do.
-    fn push(&mut self, more: Vector4<f64>, those: &[usize]) -> bool {
+    /// The rates of races (rad/s) and axis (m/s) jump by `more` as groups `those` cross a junction or are taken along: the others follow.
+    /// Whether they do.
+    pub(super) fn push(&mut self, more: Vector4<f64>, those: &[usize]) -> bool {
         if more == Vector4::zeros() {
             return false;
         }

@@ -24,12 +24,15 @@
 //!
 //! Where the races bend unevenly, what presses a sprag follows from where all of them stand (`bending`).
 //!
+//! Sprags that a driven cage carries turn with the inner race (`carried`).
+//!
 //! State: theta_bi, theta_be, their rates, five works, then of each group alpha, phi, their rates and the slips at A
 //! and B; last the shift of the axis and its rate, where there are bearings.
 
 mod approach;
 mod axes;
 mod bending;
+mod carried;
 mod change;
 mod choose;
 mod energy;

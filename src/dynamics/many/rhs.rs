@@ -2,6 +2,7 @@
 
 use super::axes::{AXIS, Axes, SeenAxes, Sight};
 use super::bending::{BendingWork, Bent, Rings};
+use super::carried::{Rides, Riding};
 use super::{EACH, FIRST_WORK, HEAD, PROBES, SpragGroup, SpragMotion, state_of};
 use crate::dynamics::choose::EXCESS;
 use crate::dynamics::events::{INNER, LEAVE_RAD, LOWER, OUTER, Probe, UPPER, probe_of, without_forces};
@@ -112,6 +113,8 @@ pub(super) struct Rhs<'a> {
     /// theta_be - theta_bi from which the windup counts that a waiting group waits for, rad.
     pub(super) reference_rad: f64,
     parts: Vec<Option<GroupRhs>>,
+    /// Groups that a cage carries.
+    pub(super) riding: Vec<Riding>,
     pub(super) seen: Vec<Option<Seen>>,
     /// How each of those sees the axes; empty where these meet and are held.
     sees: Vec<Option<SeenAxes>>,
@@ -142,6 +145,7 @@ impl<'a> Rhs<'a> {
             looks: 0,
             reference_rad,
             parts: (0..n).map(|_| None).collect(),
+            riding: Vec::new(),
             seen: vec![None; n],
             sees: vec![None; axes.map_or(0, |_| n)],
             probes: std::array::from_fn(|_| vec![Probe::NOTHING; n]),
@@ -249,6 +253,7 @@ impl<'a> Rhs<'a> {
         let f = self.torques_nm(t, y);
         self.looks += 1;
         self.bend(y);
+        self.riding.clear();
         for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
             (self.parts[g], self.seen[g]) = (None, None);
             if motion.waits {
@@ -258,7 +263,11 @@ impl<'a> Rhs<'a> {
             let own = state_of(y, g);
             let sight = self.stands_there(g, mode.place, t, y, &own);
             let rates = self.goes(g, mode, &sight, y, &own);
-            self.parts[g] = Some(GroupRhs::new::<RADIAL>(model, mode, t, &own, &sight, &rates));
+            if mode.place == Place::Carried {
+                self.riding.push(Riding::new(model, g, t, &sight.point, &rates));
+            } else {
+                self.parts[g] = Some(GroupRhs::new::<RADIAL>(model, mode, t, &own, &sight, &rates));
+            }
             // Forces follow below.
             self.seen[g] = Some(Seen { point: sight.point, rates, forces: Forces::NONE });
             if self.axes.is_some() {
@@ -285,6 +294,9 @@ impl<'a> Rhs<'a> {
                     mass[(row, 1)] += arm * part.yields[(row, 1)];
                 }
             }
+            for riding in &self.riding {
+                riding.turns_with(&mut mass, &mut torque);
+            }
             let determinant = mass[(0, 0)] * mass[(1, 1)] - mass[(0, 1)] * mass[(1, 0)];
             let x = Vector4::new(
                 (torque[0] * mass[(1, 1)] - torque[1] * mass[(0, 1)]) / determinant,
@@ -292,8 +304,11 @@ impl<'a> Rhs<'a> {
                 0.0,
                 0.0,
             );
-            if !self.lets_go(&x) {
-                return x;
+            let (lets_go, rides) = (self.lets_go(&x), self.ride_under(t, &x));
+            match rides {
+                Rides::Settled if !lets_go => return x,
+                Rides::NoConvergence => return Vector4::repeat(f64::NAN),
+                _ => {}
             }
         }
     }
@@ -395,6 +410,7 @@ impl<'a> Rhs<'a> {
     pub(super) fn probe(&self, g: usize, t: f64, y: &[f64]) -> Probe {
         let motion = &self.motions[g];
         match (&self.seen[g], self.groups[g].lag_rad) {
+            (Some(s), _) if motion.mode.place == Place::Carried => self.probe_carried(g, s, y),
             (Some(s), _) => {
                 let model = &self.groups[g].model;
                 let own = state_of(y, g);

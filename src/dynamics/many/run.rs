@@ -11,7 +11,7 @@ use super::{
 };
 use crate::dynamics::cusp::towards_the_cusp_s;
 use crate::dynamics::events::{EVENTS, INNER, N_BI, OUTER};
-use crate::dynamics::model::{Grip, N_STATE, Place};
+use crate::dynamics::model::{Grip, Mode, N_STATE, Place};
 use crate::dynamics::run::{RunSettings, Stop};
 use crate::numeric::root;
 use crate::ode::dop853;
@@ -26,7 +26,7 @@ pub(super) const AT_ONCE_S: f64 = 1e-13;
 const CLOSE: f64 = 1.0 - 1e-10;
 /// tan omega, about, for tolerances.
 const LEVER: f64 = 0.1;
-/// Kinds of motion whose step lengths are remembered: whether any A slips, any B slips, any sprag is open.
+/// Kinds of motion whose step lengths are remembered: whether any A slips, any B slips, any sprag is open or carried by a cage.
 const KINDS: usize = 8;
 
 /// Integrate `groups` from `start`; `settings` as of one sprag, of which samples and history beyond equidistant ones, energy, jumps
@@ -66,7 +66,7 @@ pub(super) struct Going<'a, const N: usize> {
     /// Last step length by kind of motion, s: in slip a sprag is a hundred times faster than the races.
     lengths: [f64; KINDS],
     start_j: f64,
-    /// Energy of sprags that were turned along before they touched, J.
+    /// Energy of sprags that were turned along before they touched, or that a cage takes along or lets go, J.
     pub(super) appeared_j: f64,
 }
 
@@ -218,13 +218,14 @@ impl<'a, const N: usize> Going<'a, N> {
         }
     }
 
-    /// Whether any A slips, any B slips, any sprag is open.
+    /// Whether any A slips, any B slips, any sprag is open or carried by a cage.
     fn kind(&self) -> usize {
         let touching = || self.rhs.motions.iter().filter(|m| !m.waits).map(|m| m.mode);
         let slips = |grip: Grip| matches!(grip, Grip::Slip(_));
-        usize::from(touching().any(|m| slips(m.inner) && m.place != Place::Open))
+        let apart = |m: &Mode| matches!(m.place, Place::Open | Place::Carried);
+        usize::from(touching().any(|m| slips(m.inner) && !apart(&m)))
             + 2 * usize::from(touching().any(|m| slips(m.outer)))
-            + 4 * usize::from(touching().any(|m| m.place == Place::Open))
+            + 4 * usize::from(touching().any(|m| apart(&m)))
     }
 
     /// Take a step of about `h`, at most `rest`; the length of the next. `None`: the run has ended.
@@ -379,11 +380,13 @@ impl<'a, const N: usize> Going<'a, N> {
                 // Rolling keeps theta_bi - theta_be = -W(alpha): one Newton step removes the drift of the step.
                 y[at] -= (y[0] - y[1] + end.windup - phase) / end.rho;
             }
-            if motion.mode.place != Place::Open {
+            if motion.mode.place != Place::Open && !motion.mode.is_off() {
                 let slips = [motion.mode.inner, motion.mode.outer].map(|grip| matches!(grip, Grip::Slip(_)));
                 let (course, normal_n) = (&mut self.out.courses[g], end.figures[N_BI]);
                 // A slip that began unloaded goes on under load.
-                let loaded = normal_n > 0.0 && normal_n >= self.groups[g].model.loaded_n;
+                let loaded = normal_n > 0.0
+                    && normal_n >= self.groups[g].model.loaded_n
+                    && motion.mode.place != Place::Carried;
                 if course.catches_s.is_some() && course.slips.is_none() && slips.contains(&true) && loaded {
                     course.slips = Some(FirstSlip { t_s: t, inner: slips[0], normal_n });
                 }
