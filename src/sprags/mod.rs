@@ -190,7 +190,8 @@ impl Many {
         let touch = match alike.model.carried {
             None => None,
             Some(_) => {
-                let profile = clutch.profile().map_err(|e| NoEachSprag::NoScenario(NoScenario::Profile(e)))?;
+                let profile =
+                    clutch.profile().map_err(|e| NoEachSprag::NoScenario(NoScenario::Profile(e)))?;
                 let touch = touch(clutch, &profile, curve.speed_rad_s());
                 clutch.cage.zip(Some(touch.map_err(|e| NoEachSprag::NoScenario(NoScenario::Curve(e)))?))
             }

@@ -75,22 +75,35 @@ fn what_cannot_be_run_is_refused_with_what_to_do() {
 }
 
 #[test]
-fn a_driven_cage_that_a_scene_would_need_is_told() {
+fn a_driven_cage_takes_along_what_lets_go_or_is_said_to_be_left_out() {
     let folder = Folder::new();
     let file = folder.path("cage.toml");
-    let cost = |step_nm: f64| {
+    let scene = |sharing: &str, step_nm: f64| {
         let scene = format!(
-            "\n[sharing]\nseed = 1\n\n[[scenarios]]\nname = \"step\"\nkind = \"transient\"\npreload_nm = 40.0\n\
+            "\n[sharing]\nseed = 1\n{sharing}\n\n[[scenarios]]\nname = \"step\"\nkind = \"transient\"\npreload_nm = 40.0\n\
              torque_step_nm = {step_nm:?}\nstep_time_s = 0.005\nabutment_stiffness_nm_per_rad = 5000.0\n\
-             duration_s = 0.02\nspeed_rpm = 0.0\n"
+             duration_s = 0.03\nspeed_rpm = 0.0\n"
         );
         let design = std::fs::read_to_string("designs/lift-off-inner.toml").unwrap();
         std::fs::write(&file, design + &scene).unwrap();
-        let found = json(&run(&["sharing", &file, "--scenario", "step", "--json"]));
-        let terms = found["left_out"].as_array().unwrap();
-        let cage = terms.iter().find(|t| t["term"].as_str().unwrap().starts_with("the cage"));
-        cage.unwrap()["cost"].as_str().unwrap().to_owned()
+        let ran = |command: &str| json(&run(&[command, &file, "--scenario", "step", "--json"]));
+        [ran("sharing"), ran("simulate")]
     };
-    assert!(cost(5.0).starts_with("nothing here"), "{}", cost(5.0));
-    assert!(cost(-60.0).contains("`simulate` has the cage"), "{}", cost(-60.0));
+    let term = |found: &serde_json::Value, begins: &str| {
+        let terms = found["left_out"].as_array().unwrap();
+        terms.iter().find(|t| t["term"].as_str().unwrap().starts_with(begins)).cloned()
+    };
+    let [all, one] = scene("", -60.0);
+    let [all_rad, one_rad] =
+        [&all["theta_inner_rad"], &one["theta_inner_end_rad"]].map(|x| x.as_f64().unwrap());
+    assert!((all_rad - one_rad).abs() < 1e-9 && (one_rad - 0.3721).abs() < 1e-4, "{all_rad} {one_rad}");
+    assert_eq!(all["sprags"][0]["state"], "with the cage");
+    let what = "what the driven cage does";
+    assert_eq!(term(&all, what).unwrap()["cost"], term(&one, what).unwrap()["cost"]);
+    assert!(term(&all, "the cage").is_none());
+    // Between axes that give way.
+    let give_way = "size_within_um = 1.0\nbearing_stiffness_n_per_um = 100.0";
+    let cost = |step_nm: f64| term(&scene(give_way, step_nm)[0], "the cage").unwrap()["cost"].clone();
+    assert!(cost(5.0).as_str().unwrap().starts_with("nothing here"), "{}", cost(5.0));
+    assert!(cost(-60.0).as_str().unwrap().contains("`simulate` has the cage"), "{}", cost(-60.0));
 }

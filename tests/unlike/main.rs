@@ -6,6 +6,7 @@ mod scenes;
 mod bending;
 mod by_chance;
 mod cost;
+mod driven_cage;
 mod each_sprag;
 mod off_centre;
 mod sharing;

@@ -2,7 +2,7 @@
 
 use super::SharingSceneAnswer;
 use crate::answer::Answer;
-use crate::dynamics::{ManySample, SpragCourse};
+use crate::dynamics::{ManySample, Place, SpragCourse};
 use crate::report::{Rows, Unit};
 use crate::sharing::OneSprag;
 use serde::Serialize;
@@ -176,6 +176,7 @@ impl SharingSceneAnswer<'_> {
                 (None, Some(c)) if c.gone_s.is_some() => "rolled over",
                 (None, Some(c)) if c.over_s.is_some() => "beyond its end",
                 (None, Some(c)) if c.slips.is_some() => "slips",
+                (None, Some(_)) if self.carried_at_end(*i) => "with the cage",
                 _ => "holds",
             })
             .json_in("azimuth_deg", Unit::Degree, |(_, s, _)| s.azimuth_rad)
@@ -191,6 +192,12 @@ impl SharingSceneAnswer<'_> {
             .json("contact_lost_s", |(_, _, c)| c.map(|c| c.open_s))
             .json("over_at_s", |(_, _, c)| c.and_then(|c| c.over_s))
             .json("gone_at_s", |(_, _, c)| c.and_then(|c| c.gone_s))
+    }
+
+    /// Whether sprag `i` ends with the cage that the inner race drives.
+    fn carried_at_end(&self, i: usize) -> bool {
+        let last = self.found.run.samples.last().zip(self.found.group[i]);
+        last.is_some_and(|(last, g)| last.motions[g].mode.place == Place::Carried)
     }
 
     /// One row a sample.

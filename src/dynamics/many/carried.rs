@@ -25,8 +25,8 @@ use super::{EACH, HEAD, state_of};
 use crate::dynamics::carried::{Carried, Ride};
 use crate::dynamics::change::moving;
 use crate::dynamics::choose::Known;
-use crate::dynamics::events::{EVENTS, INNER, LOWER, OUTER, Probe, UPPER, figures};
-use crate::dynamics::model::{Forces, Grip, Mode, Model, Place};
+use crate::dynamics::events::{INNER, LOWER, OUTER, Probe, UPPER, figures};
+use crate::dynamics::model::{Forces, Grip, Mode, Model, N_STATE, Place};
 use crate::dynamics::start::settled;
 use crate::wedge::WedgePoint;
 use nalgebra::{Matrix2, Vector2, Vector4};
@@ -156,51 +156,75 @@ impl Rhs<'_> {
 }
 
 impl<const N: usize> Going<'_, N> {
-    /// Carried group `g` where the outer race comes to run as fast, or where it comes off that race or back to it (`fell`): one that is
-    /// as fast, or faster, takes it into the wedge. What is known of its contacts then; `None`: it stays with the cage.
-    pub(super) fn catch_up(&mut self, g: usize, fell: &[bool; EVENTS]) -> Option<[Known; 2]> {
-        if !fell[INNER] && !fell[OUTER] {
-            return None;
-        }
-        let mode = self.rhs.motions[g].mode;
-        let lags = matches!(mode.outer, Grip::Slip(s) if s < 0.0);
-        self.rhs.motions[g].mode = match (fell[OUTER], mode.is_off()) {
-            (true, true) => Mode { outer: Grip::Slip(if lags { 1.0 } else { -1.0 }), ..mode },
-            (false, false) => Mode { inner: Mode::OFF, ..mode },
-            (false, true) if lags => Mode { inner: Mode::PRESSED, ..mode },
-            _ => return Some(self.wedge_in(g, lags)),
+    /// Carried groups where the outer race comes to run as fast, or where they come off that race or back to it (`falls`): one that is as
+    /// fast, or faster, takes them into the wedge. What is `known` of the contacts of those then.
+    pub(super) fn catch_up(&mut self, falls: &Falls, known: &mut [[Known; 2]]) {
+        let comes = |g: &usize| {
+            let motion = &self.rhs.motions[*g];
+            motion.mode.place == Place::Carried && !motion.waits && (falls[*g][INNER] || falls[*g][OUTER])
         };
-        None
+        let those: Vec<usize> = (0..falls.len()).filter(comes).collect();
+        if those.is_empty() {
+            return;
+        }
+        let (t, y) = (self.t_s, self.y);
+        self.rhs.look::<true>(t, &y);
+        let before_j = self.rhs.energy_j(t, &y);
+        let mut let_go = Vec::new();
+        for g in those {
+            let mode = self.rhs.motions[g].mode;
+            let lags = matches!(mode.outer, Grip::Slip(s) if s < 0.0);
+            self.rhs.motions[g].mode = match (falls[g][OUTER], mode.is_off()) {
+                (true, true) => Mode { outer: Grip::Slip(if lags { 1.0 } else { -1.0 }), ..mode },
+                (false, false) => Mode { inner: Mode::OFF, ..mode },
+                (false, true) if lags => Mode { inner: Mode::PRESSED, ..mode },
+                _ => {
+                    let v_b = self.rhs.seen[g].map_or(0.0, |seen| seen.forces.v_b);
+                    known[g] = [Known::Still, if lags { Known::Still } else { moving(v_b.max(0.0)) }];
+                    let_go.push(g);
+                    self.let_go(g)
+                }
+            };
+        }
+        self.stand_bent(&let_go);
+        self.appeared_j += self.rhs.energy_j(self.t_s, &self.y) - before_j;
     }
 
-    /// Carried group `g` is let go at an outer race that is as fast (`lags`: was slower until now), or faster.
-    fn wedge_in(&mut self, g: usize, lags: bool) -> [Known; 2] {
-        let (model, at) = (&self.groups[g].model, HEAD + EACH * g);
-        let before_j = self.rhs.energy_j(self.t_s, &self.y);
+    /// How carried group `g` begins where it is let go: open by its tilt, or pressed in as its spring does between races that stand still
+    /// against one another. Its rates are those that it has had.
+    fn let_go(&mut self, g: usize) -> Mode {
+        let at = HEAD + EACH * g;
         let tilt_rad = self.rhs.rides(g).map_or(0.0, |ride| ride.tilt_rad);
         let mut place = Place::Open;
         if tilt_rad > 0.0 {
             self.y[at] -= tilt_rad;
         } else {
-            // Pressed in as its spring does between races that stand still against one another.
-            let pressed = settled(model, 0.0);
+            let pressed = settled(&self.groups[g].model, 0.0);
             place = pressed.map_or(Place::Arc(0), |(_, place)| place);
             self.y[at] = pressed.map_or(self.y[at], |(state, _)| state[0]);
         }
-        let slips = Grip::Slip(1.0);
-        self.rhs.motions[g].mode = Mode { place, inner: slips, outer: slips };
-        if place != Place::Open && self.rhs.bent(&self.y, |bent| bent.pressed_rad(g)).is_some_and(|x| x < 0.0) {
-            // The others have bent the races apart there.
-            self.rhs.motions[g].mode.place = Place::Open;
-        }
-        self.appeared_j += self.rhs.energy_j(self.t_s, &self.y) - before_j;
-        let own = state_of(&self.y, g);
-        let p = model.point(place, own[0]);
-        let v_b = model.slip_velocities(&p, &[own[4], own[5], own[6], own[7]]).1;
-        [Known::Still, if lags { Known::Still } else { moving(v_b.max(0.0)) }]
+        Mode { place, inner: Grip::Slip(1.0), outer: Grip::Slip(1.0) }
     }
 
-    /// A driven cage takes groups along that touch, or cease to (`falls`), behind the inner race. Which.
+    /// Groups `those` between races that the others, and they, bend: open where the races are apart, no farther in than they touch.
+    fn stand_bent(&mut self, those: &[usize]) {
+        let apart = |rhs: &Rhs<'_>, y: &[f64; N], g: usize| rhs.bent(y, |bent| bent.pressed_rad(g) < 0.0);
+        let closed = |rhs: &Rhs<'_>, g: usize| rhs.motions[g].mode.place != Place::Open;
+        // One that opens leaves more of the races to the others.
+        while let Some(&g) =
+            those.iter().find(|&&g| closed(&self.rhs, g) && apart(&self.rhs, &self.y, g) == Some(true))
+        {
+            self.rhs.motions[g].mode.place = Place::Open;
+        }
+        for &g in those {
+            if !closed(&self.rhs, g) && apart(&self.rhs, &self.y, g) == Some(false) {
+                let at = HEAD + EACH * g;
+                self.y[at] = self.y[at].min(self.rhs.touch_rad(g, &self.y));
+            }
+        }
+    }
+
+    /// A driven cage takes groups along that touch, or cease to (`falls`), behind the inner race while the outer one lags. Which.
     pub(super) fn take_along(&mut self, falls: &Falls) -> Vec<usize> {
         let motions = &self.rhs.motions;
         let comes = |g: &usize| {
@@ -212,16 +236,20 @@ impl<const N: usize> Going<'_, N> {
                     _ => false,
                 }
         };
-        let those: Vec<usize> = (0..falls.len()).filter(comes).filter(|&g| self.behind(g).is_some()).collect();
+        let those: Vec<usize> =
+            (0..falls.len()).filter(comes).filter(|&g| self.behind(g).is_some()).collect();
         if those.is_empty() || self.rhs.axes.is_some() {
             return Vec::new();
         }
-        let (beyond, inertia) = those.iter().filter_map(|&g| self.behind(g)).fold((0.0, 0.0), |all, one| {
-            (all.0 + one[0], all.1 + one[1])
-        });
+        let (beyond, inertia) = those
+            .iter()
+            .filter_map(|&g| self.behind(g))
+            .fold((0.0, 0.0), |all, one| (all.0 + one[0], all.1 + one[1]));
         let Some(yields) = self.inertia_with_all_but(&those).try_inverse() else { return Vec::new() };
         let more: Vector4<f64> = yields.column(0) * (beyond / (1.0 + yields[(0, 0)] * inertia));
-        if self.y[3] + more[1] >= self.y[2] + more[0] {
+        // Races that are as fast to what steps resolve are left to meet: to rounding either may be behind.
+        let resolved = self.settings.tolerance_in::<N_STATE>(&motions[those[0]].mode).absolute[6];
+        if self.y[3] + more[1] >= self.y[2] + more[0] - resolved {
             return Vec::new();
         }
         let before_j = self.rhs.energy_j(self.t_s, &self.y);

@@ -45,7 +45,6 @@ impl<const N: usize> Going<'_, N> {
         for (g, fell) in falls.iter().enumerate() {
             let (mode, Some(seen)) = (before[g].mode, self.rhs.seen[g]) else { continue };
             if mode.place == Place::Carried {
-                known[g] = self.catch_up(g, fell).unwrap_or(known[g]);
                 continue;
             }
             // T_bi = -sgn(v_A) mu N, T_be = +sgn(v_B) mu N.
@@ -61,6 +60,7 @@ impl<const N: usize> Going<'_, N> {
             }
         }
         let mut left: Vec<usize> = (0..falls.len()).filter(|&g| falls[g][LOWER] || falls[g][UPPER]).collect();
+        self.catch_up(falls, &mut known);
         let taken = self.take_along(falls);
         let mut jumps = vec![!taken.is_empty(); falls.len()];
         left.retain(|g| !taken.contains(g));
@@ -230,14 +230,7 @@ impl<const N: usize> Going<'_, N> {
                 }
             }
         }
-        let carried = |g: usize| before[g].mode.place == Place::Carried && falls[g].contains(&true);
-        if (0..falls.len()).any(carried) {
-            let (t, y) = (self.t_s, self.y);
-            self.rhs.look::<true>(t, &y);
-        }
-        for g in (0..falls.len()).filter(|&g| carried(g)) {
-            known[g] = self.catch_up(g, &falls[g]).unwrap_or(known[g]);
-        }
+        self.catch_up(falls, &mut known);
         if !self.choose(&known, &before, |_| false) {
             return false;
         }
