@@ -1,7 +1,7 @@
 //! Sprags one by one that a driven cage carries: alike they are the one-sprag model, unlike they come off one by one; momentum and energy.
 
 use sprag_design::Design;
-use sprag_design::clutch::{Scenario, Sharing, Standing};
+use sprag_design::clutch::{GivenSprag, Scenario, Sharing, Standing};
 use sprag_design::dynamics::{
     ManyRun, ManySample, ManyStart, Place, RunSettings, Sample, Stop, pivot_moments, run, run_many,
 };
@@ -232,6 +232,28 @@ fn the_blows_of_sprags_that_are_taken_along_keep_the_angular_momentum() {
         // One that is pressed in at once lies a little nearer to the axis.
         assert!(off.abs() < 1e-6 * of_sprags * all.races[2].abs().max(1.0), "{off:e}");
     }
+}
+
+/// One that lacks something to touch is no exception: beyond lift-off it stays off with the cage, however far the outer race has run on.
+#[test]
+fn a_sprag_with_a_gap_stays_off_beyond_lift_off() {
+    let late = GivenSprag { index: 3, gap_m: Some(5e-6), ..GivenSprag::default() };
+    let many =
+        Many::new(&scene("0", OFF), &Sharing { given: vec![late], ..Sharing::default() }, false).unwrap();
+    let all = go(&many, &settings(&many, 1e-9, 2001));
+    let late = many.group[3].unwrap();
+    let catches_s = all.courses[late].catches_s.unwrap();
+    let (mut ahead, rpm) = (0, std::f64::consts::PI / 30.0);
+    for sample in all.samples.iter().filter(|sample| sample.t_s < catches_s) {
+        let motion = &sample.motions[late];
+        // Lift-off is at 827 rpm.
+        if 1000.0 * rpm + sample.races[2] > 1.02 * 827.0 * rpm {
+            assert!(motion.waits || motion.mode.is_off(), "{sample:?}");
+            ahead += u64::from(!motion.waits && sample.races[3] > sample.races[2]);
+        }
+    }
+    assert!(ahead > 50, "{ahead}");
+    assert!(all.residual_j.abs() < 1e-7 * all.through_j, "{:e}", all.residual_j / all.through_j);
 }
 
 #[test]

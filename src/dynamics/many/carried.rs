@@ -21,7 +21,7 @@
 use super::change::Falls;
 use super::rhs::{Rhs, Seen};
 use super::run::Going;
-use super::{EACH, HEAD, state_of};
+use super::{EACH, HEAD, SpragMotion, state_of};
 use crate::dynamics::carried::{Carried, Ride};
 use crate::dynamics::change::moving;
 use crate::dynamics::choose::Known;
@@ -222,6 +222,28 @@ impl<const N: usize> Going<'_, N> {
                 self.y[at] = self.y[at].min(self.rhs.touch_rad(g, &self.y));
             }
         }
+    }
+
+    /// Group `g`, which has waited, would touch now, and goes on with the cage instead where that turns so fast that it is off the outer
+    /// race. Whether it does.
+    pub(super) fn stays_off(&mut self, g: usize) -> bool {
+        let (t, y, at) = (self.t_s, self.y, HEAD + EACH * g);
+        let model = &self.groups[g].model;
+        let (Some(carried), None) = (&model.carried, self.rhs.axes) else { return false };
+        let x = self.rhs.look::<true>(t, &y);
+        let alpha = model.curve.first_contact_rad();
+        let p = model.point(Place::Carried, alpha);
+        let outer = Grip::Slip(if y[3] < y[2] { -1.0 } else { 1.0 });
+        let mode = Mode { place: Place::Carried, inner: Mode::OFF, outer };
+        let rates = [0.0, y[2], y[2], y[3]];
+        let ride = Riding::new(model, g, t, &p, &rates).ride(model, carried, &mode, x[0]);
+        if ride.off_nm <= 0.0 {
+            return false;
+        }
+        (self.y[at], self.y[at + 2], self.y[at + 3]) = (alpha, 0.0, y[2]);
+        self.rhs.motions[g] = SpragMotion::touching(mode);
+        self.appeared_j += self.rhs.energy_of_j(g, t, &self.y);
+        true
     }
 
     /// A driven cage takes groups along that touch, or cease to (`falls`), behind the inner race while the outer one lags. Which.

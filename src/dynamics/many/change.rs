@@ -66,7 +66,9 @@ impl<const N: usize> Going<'_, N> {
         left.retain(|g| !taken.contains(g));
         while let Some(&g) = left.first() {
             if before[g].waits {
-                self.touches(g);
+                if !self.stays_off(g) {
+                    self.touches(g);
+                }
                 known[g] = [Known::Still; 2];
                 left.remove(0);
                 continue;

@@ -31,7 +31,7 @@ const KINDS: usize = 8;
 
 /// Integrate `groups` from `start`; `settings` as of one sprag, of which samples and history beyond equidistant ones, energy, jumps
 /// and pure rolling mean nothing here. Up to 64 groups.
-/// `axes`: where these do not meet or may give way; `rings`: where the races bend, for groups of one sprag each.
+/// `axes`: where these do not meet or may give way, no cage carries there; `rings`: where the races bend, for groups of one sprag each.
 pub fn run_many(
     groups: &[SpragGroup],
     axes: Option<&Axes>,
