@@ -46,6 +46,9 @@ class Clutch(om.ExplicitComponent):  # type: ignore[misc]
 
 def main(path: str, quick: bool) -> None:
     problem = sd.Design.load(path).problem()
+    whole = [v.name for v in problem.variables if v.whole]
+    if whole:
+        sys.exit(f"SLSQP knows no whole numbers: take {', '.join(whole)} out of [optimize] variables, or with_optuna.py")
     model = om.Problem(reports=False)
     clutch = model.model.add_subsystem("clutch", Clutch(problem), promotes=["*"])
     # t is made largest while no objective lies below it.

@@ -15,6 +15,9 @@ import sprag_design as sd
 
 def main(path: str, quick: bool) -> None:
     problem = sd.Design.load(path).problem()
+    whole = [v.name for v in problem.variables if v.whole]
+    if whole:
+        sys.exit(f"SLSQP knows no whole numbers: take {', '.join(whole)} out of [optimize] variables, or with_optuna.py")
     low, high = np.array(problem.bounds).T
     known: dict[bytes, sd.Evaluation] = {}
 

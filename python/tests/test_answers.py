@@ -288,3 +288,37 @@ def test_the_command_answers_from_the_wheel(command: Command) -> None:
     assert command("--version").stdout.strip() == f"sprag-design {sd.__version__}"
     assert command("check", MULTI_ARC, "--nonsense").returncode == 2
     assert "huang" in command("check", "--help").stdout
+
+
+def test_a_check_shows_what_the_command_shows(design: sd.Design) -> None:
+    pytest.importorskip("pandas")
+    check = design.check()
+    slip = check.margin("slip:low-10")
+    assert slip.slip_margin is not None and slip.shown_margin == slip.slip_margin != slip.margin
+    shown = check._repr_html_()
+    assert f"<td>10 % wanted</td><td>μ</td><td>{100.0 * slip.slip_margin:.3g} %</td><td>held</td>" in shown
+    table = check.to_pandas()
+    assert list(table.columns[table.columns.get_loc("margin") :][:2]) == ["margin", "slip_margin"]
+    assert table["slip_margin"].dtype == table["demand"].dtype == np.float64
+    # A scene that is overloaded has rows without demand and allowable.
+    overloaded = design.set("scenarios[rated-45].preload_nm", 3000.0).check()
+    assert any(row.allowable is None for row in overloaded.margins)
+    assert "NOT HELD" in overloaded._repr_html_() and len(overloaded.to_pandas()) == len(overloaded.margins)
+
+
+def test_an_optimum_says_what_it_is(design: sd.Design) -> None:
+    found = design.optimize(evaluations=12, starts=1)
+    assert f"{found.best.objective:.5g}" in found.verdict and found.verdict in repr(found)
+    shown = found._repr_html_()
+    assert all(f"<td>{name}</td>" in shown for name in found.best.variables)
+    assert f"<td>{found.best.margins[0].code}</td>" in shown
+
+
+def test_what_cannot_be_drawn_or_made_says_why(design: sd.Design) -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    low = design.simulate("low-6")
+    with pytest.raises(KeyError, match="no column nix; there are: time_s"):
+        low.plot("nix")
+    with pytest.raises(TypeError, match="Design.load"):
+        sd.Design("huang.toml")  # type: ignore[arg-type]
+    assert "os" not in dir(sd)

@@ -12,7 +12,7 @@ number. Azimuths and rotations are positive in engagement for the sprag; a slip 
 
 from __future__ import annotations
 
-import os
+import os as _os
 
 from . import _core
 from ._answers import (
@@ -118,6 +118,8 @@ def contact_laws() -> list[str]:
     return _core.contact_laws()
 
 
-if hasattr(os, "register_at_fork"):
+if hasattr(_os, "register_at_fork"):
     # Threads do not survive a fork: the child computes on its own.
-    os.register_at_fork(after_in_child=_core.forked)
+    _os.register_at_fork(after_in_child=_core.forked)
+
+del annotations

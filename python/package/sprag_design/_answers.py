@@ -62,7 +62,11 @@ def _object(kind: type[T], data: dict[str, Any], **more: Any) -> T:
 def _columns(rows: typing.Iterable[Any]) -> pd.DataFrame:
     import pandas as pd
 
-    return pd.DataFrame([dataclasses.asdict(row) for row in rows])
+    listed = list(rows)
+    table = pd.DataFrame([dataclasses.asdict(row) for row in listed])
+    # A number that a row does not have is NaN there.
+    hints = _hints(typing.cast(Any, type(listed[0]))) if listed else {}
+    return table.astype({name: "float64" for name in table.columns if hints[name] == (float | None)})
 
 
 def _axes(ax: Axes | None) -> Axes:
@@ -70,7 +74,19 @@ def _axes(ax: Axes | None) -> Axes:
         return ax
     import matplotlib.pyplot as plt
 
-    return plt.subplots()[1]
+    return plt.subplots(layout="constrained")[1]
+
+
+def _html_table(head: typing.Iterable[str], rows: typing.Iterable[typing.Iterable[str]]) -> str:
+    def line(cells: typing.Iterable[str], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+    return f"<table>{line(head, 'th')}{''.join(line(row, 'td') for row in rows)}</table>"
+
+
+def _figure(value: float | None, spec: str = ".4g") -> str:
+    """A number in words; nothing where there is none."""
+    return "" if value is None else format(value, spec)
 
 
 @dataclass(frozen=True)
@@ -137,7 +153,7 @@ class Margin:
     demand: float | None
     """Demand, in ``unit``; ``None`` where no friction suffices, the scene is overloaded or the curve ends below the row's
     torque."""
-    allowable: float
+    allowable: float | None
     """Allowable, in ``unit``; of slip the wanted slip margin."""
     unit: str
     """Unit of demand and allowable; ``1`` of a pure number."""
@@ -157,6 +173,11 @@ class Margin:
     """Whether the limit is held."""
     slip_margin: float | None
     """Of slip rows static over required friction, less 1; ``None`` elsewhere."""
+
+    @property
+    def shown_margin(self) -> float:
+        """The margin as the command shows it: of slip rows the slip margin, which is held against the wanted one."""
+        return self.margin if self.slip_margin is None else self.slip_margin
 
 
 @dataclass(frozen=True)
@@ -296,28 +317,37 @@ class Check(_Common):
 
     def to_pandas(self) -> pd.DataFrame:
         """The rows as a table, by code. Needs pandas."""
-        return _columns(self.margins).set_index("code")
+        table = _columns(self.margins).set_index("code")
+        table.insert(list(table.columns).index("margin") + 1, "slip_margin", table.pop("slip_margin"))
+        return table
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Margins as bars. Needs matplotlib."""
+        """Margins as bars, of slip rows the slip margin. Needs matplotlib."""
         ax = _axes(ax)
         rows = self.margins[::-1]
         colours = ["0.75" if not r.required else "tab:green" if r.held else "tab:red" for r in rows]
         # Where nothing is demanded the margin is a million.
-        ax.barh([r.code for r in rows], [min(100.0 * r.margin, 150.0) for r in rows], color=colours)
+        ax.barh([r.code for r in rows], [min(100.0 * r.shown_margin, 150.0) for r in rows], color=colours)
         ax.axvline(0.0, color="black", linewidth=0.8)
         ax.set_xlabel("Margin, % (cut at 150; grey: shown only)")
         return ax
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(r.code)}</td><td>{'' if r.demand is None else f'{r.demand:.4g}'}</td>"
-            f"<td>{r.allowable:.4g}</td><td>{html.escape(r.unit if r.unit != '1' else '')}</td>"
-            f"<td>{100.0 * r.margin:.3g} %</td><td>{'held' if r.held else 'NOT HELD' if r.required else 'shown only'}</td></tr>"
-            for r in self.margins
-        )
-        head = "".join(f"<th>{h}</th>" for h in ("Limit", "Demand", "Allowable", "Unit", "Margin", "Verdict"))
-        return f"<p><b>{html.escape(self.verdict)}</b></p><table><tr>{head}</tr>{rows}</table>"
+        def cells(r: Margin) -> tuple[str, ...]:
+            slips = r.code.startswith("slip:")
+            allowable = None if r.allowable is None else 100.0 * r.allowable if slips else r.allowable
+            wanted = f"{_figure(allowable)} % wanted" if slips and allowable is not None else _figure(allowable)
+            unit = r.unit if r.unit != "1" else "μ" if slips else ""
+            margin = "" if r.demand is None and not r.computed else f"{100.0 * r.shown_margin:.3g} %"
+            verdict = "shown" if not r.required else "not computed" if not r.computed else "held" if r.held else "NOT HELD"
+            return r.code, _figure(r.demand), wanted, unit, margin, verdict
+
+        head = ("Limit", "Demand", "Allowable", "Unit", "Margin", "Verdict")
+        notes = [(note, f"<p>{html.escape(note)}</p>") for note in self.notes]
+        warnings = "".join(line for note, line in notes if note.startswith("Warning"))
+        others = "".join(line for note, line in notes if not note.startswith("Warning"))
+        more = f"<details><summary>Notes</summary>{others}</details>" if others else ""
+        return f"<p><b>{html.escape(self.verdict)}</b></p>{warnings}{_html_table(head, map(cells, self.margins))}{more}"
 
 
 def check_of(found: tuple[str, str, str]) -> Check:
@@ -690,7 +720,14 @@ class Simulation(_Common):
         return table.set_index("time_s") if "time_s" in table else table
 
     def plot(self, column: str = "theta_inner_rad", ax: Axes | None = None) -> Axes:
-        """A column of the history over time. Needs matplotlib."""
+        """A column of the history over time. Needs matplotlib.
+
+        Raises ``ValueError`` of a scene without a history over time, ``KeyError`` of a column that there is not.
+        """
+        if "time_s" not in self.history:
+            raise ValueError(f"scene {self.scenario} is static or steady: there is no history over time to plot")
+        if column not in self.history:
+            raise KeyError(f"no column {column}; there are: {', '.join(self.history)}")
         ax = _axes(ax)
         ax.plot(self.history["time_s"], self.history[column])
         ax.set_xlabel("Time, s")
@@ -909,6 +946,27 @@ class Optimum(_Common):
         import pandas as pd
 
         return pd.DataFrame({"given": self.in_file, "best": self.best.variables})
+
+    @property
+    def verdict(self) -> str:
+        """What was found, in one line."""
+        before, after = (_figure(found.objective, ".5g") or "none" for found in (self.start, self.best))
+        limits = "every limit held" if self.feasible else f"NOT HELD: {', '.join(self.not_held)}"
+        return f"{self.aim} {before} -> {after}, {limits}; {self.status} after {self.evaluations} evaluations"
+
+    def _repr_html_(self) -> str:
+        variables = [(n, _figure(self.in_file.get(n), ".6g"), f"{best:.6g}") for n, best in self.best.variables.items()]
+        before = {row.code: row for row in self.start.margins}
+
+        def percent(row: FoundMargin | None) -> str:
+            return "" if row is None else f"{100.0 * (row.margin if row.slip_margin is None else row.slip_margin):.3g} %"
+
+        margins = [(row.code, percent(before.get(row.code)), percent(row)) for row in self.best.margins]
+        return (
+            f"<p><b>{html.escape(self.verdict)}</b></p>"
+            f"{_html_table(('Variable', 'Given', 'Best'), variables)}"
+            f"{_html_table(('Limit', 'Margin before', 'Margin after'), margins)}"
+        )
 
 
 def optimum_of(common: str, body: str, design: Design, robust: Design | None) -> Optimum:
@@ -1322,6 +1380,8 @@ class Reengagement(_Common):
         ax.semilogx([b.path_mm for b in rows], [typing.cast(float, b.peak_torque_nm) for b in rows], marker=".")
         ax.set_xlabel("Slip until the friction is back, mm")
         ax.set_ylabel("Blow, Nm")
+        if not rows:
+            ax.set_title("No blow that the clutch could carry: see why in thrown and blows")
         return ax
 
 

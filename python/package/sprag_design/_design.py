@@ -80,6 +80,8 @@ class Design:
 
     def __init__(self, core: _core.Design) -> None:
         """Use :meth:`load` or :meth:`parse`."""
+        if not isinstance(core, _core.Design):
+            raise TypeError("a design is read by Design.load(path) or Design.parse(text)")
         self._core = core
         self._problem: Problem | None = None
 
@@ -126,7 +128,8 @@ class Design:
         return self._core.scenarios
 
     def with_(self, **values: Setting) -> Design:
-        """The same design with other values, by the short names of variables: ``design.with_(r_i2_mm=4.1)``.
+        """The same design with other values, by the short names of variables: ``design.with_(r_i2_mm=4.1)``. Several that are
+        only good together, by paths too: ``design.with_(**{"races.inner_radius_mm": 42.0, "races.outer_radius_mm": 50.33})``.
 
         Raises :class:`DesignError` where a name is unknown or the new design is refused.
         """
