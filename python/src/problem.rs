@@ -55,7 +55,7 @@ type Evaluated = (Vec<f64>, Vec<f64>, f64, f64, bool, Option<String>);
 fn evaluated(problem: &ClutchProblem, x: &[f64]) -> Evaluated {
     match problem.evaluate(x) {
         Ok(e) => {
-            let (least, violation) = (e.least_margin(), e.violation());
+            let (least, violation) = (e.least_margin(), problem.missed(&e));
             let feasible = violation <= sprag_design::margin::RESOLUTION;
             (e.objectives, e.limits, least, violation, feasible, None)
         }

@@ -24,14 +24,15 @@ Examples:
 Each line on standard input is a JSON array: the values of the variables of [optimize], in the file's order and units.
 Each gets one line on standard output, in the order of the lines and as soon as it is known; several lines are evaluated
 side by side, as --threads says, with the same answers for any number of threads. An answer: x; objectives (the least of them is what `optimize`
-maximises); limits (each must be 0 or more); least, the least objective; violation, the largest -limit or 0; feasible.
+maximises); limits (each must be 0 or more); least, the least objective; violation, how far the worst limit, or the wanted slip
+margin where that is an objective, is missed; feasible: nothing is.
 Where x is out of bounds or there is no clutch at it: x and refused, the reason. A line that is no such array: malformed, and exit code 2 at
 the end. --describe tells names, bounds and start first. Ctrl-C ends at once (exit code 130), and so does a reader that
 goes away before the last answer (exit code 141, as of programs that a closed pipe ends).
 
 With --vectors, --sobol or --grid the answer is a table instead, to standard output or --csv: a line for each point with its number,
-variables, least objective, least margin of all limits and the limit that has it (margin, deciding), feasible (1 or 0), objectives, limits, and
-the reason where there is no clutch. The same bytes for any number of threads and, but for the first two lines of each file, for any
+variables, least objective, least margin of all limits and of the wanted slip margin and what has it (margin, deciding), feasible (1 or 0),
+objectives, limits, and the reason where there is no clutch. The same bytes for any number of threads and, but for the first two lines of each file, for any
 parts. A file that is there, whole and of the same question, is left as it is (--force: computed again); one that was cut is made anew.
 Exit code 0 whatever is held. `map` draws it.";
 

@@ -548,6 +548,18 @@ impl ClutchProblem {
         }
     }
 
+    /// How far the worst limit of `e` is missed, or a raised slip margin that of [`Limits`], which is no limit of a climb; 0: none is.
+    pub fn missed(&self, e: &Evaluation) -> f64 {
+        e.violation().max(-self.wanted_left(e).unwrap_or(0.0))
+    }
+
+    /// What the least slip margin, where that is raised, leaves of the wanted one, as a row of `check` does; `None` where none is.
+    pub fn wanted_left(&self, e: &Evaluation) -> Option<f64> {
+        let raised = !self.as_checked && !self.slip_is_limit() && !e.objectives.is_empty();
+        let wanted = self.limits.slip_margin.unwrap_or(0.0);
+        raised.then(|| (1.0 + e.least_margin()) / (1.0 + wanted) - 1.0 - self.reserve)
+    }
+
     /// The least measure of goal `k`, in its objective's own unit ([`Objective::unit`]).
     pub fn value(&self, assessed: &Assessment, k: usize) -> f64 {
         let least =

@@ -9,5 +9,5 @@ mod row;
 mod sampling;
 
 pub use parts::SweepPart;
-pub use row::{NextPoint, NoSweep, Sweep, SweepEnd, SweepRow, SweepSettings};
+pub use row::{Decides, NextPoint, NoSweep, Sweep, SweepEnd, SweepRow, SweepSettings};
 pub use sampling::{BoxSample, NoSample, Sampling};

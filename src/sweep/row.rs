@@ -45,6 +45,17 @@ pub struct SweepRow {
     pub x: Vec<f64>,
     /// Objectives and limits, or why there is no clutch.
     pub found: Result<Evaluation, String>,
+    /// What the least slip margin, where that is an objective, leaves of the wanted one.
+    pub wanted_left: Option<f64>,
+}
+
+/// What decides at a point, by its place among its like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Decides {
+    /// A limit.
+    Limit(usize),
+    /// An objective whose slip margin is less than is wanted.
+    Objective(usize),
 }
 
 impl SweepRow {
@@ -53,15 +64,18 @@ impl SweepRow {
         self.found.as_ref().ok().map(Evaluation::least_margin).filter(|least| least.is_finite())
     }
 
-    /// Place and value of the limit that decides: the least of all; 0 or more is held.
-    pub fn deciding(&self) -> Option<(usize, f64)> {
-        let limits = self.found.as_ref().ok()?.limits.iter().copied().enumerate();
-        limits.min_by(|a, b| a.1.total_cmp(&b.1))
+    /// What decides, and its margin: the least of all limits and of a wanted slip margin; 0 or more is held.
+    pub fn deciding(&self) -> Option<(Decides, f64)> {
+        let found = self.found.as_ref().ok()?;
+        let least = |values: &[f64]| values.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        let limit = least(&found.limits).map(|(i, left)| (Decides::Limit(i), left));
+        let raised = least(&found.objectives).map(|(i, _)| Decides::Objective(i)).zip(self.wanted_left);
+        limit.into_iter().chain(raised).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Whether there is a clutch that holds every limit.
+    /// Whether there is a clutch that holds every limit, the wanted slip margin among them.
     pub fn feasible(&self) -> bool {
-        self.found.as_ref().is_ok_and(|e| e.violation() <= RESOLUTION)
+        self.deciding().map_or(self.found.is_ok(), |(_, left)| left >= -RESOLUTION)
     }
 }
 
@@ -152,7 +166,8 @@ impl Sweep {
             Some(why) => Err(why),
             None => self.problem.evaluate(&x).and_then(|e| e.checked(shape)).map_err(|why| why.to_string()),
         };
-        SweepRow { x, found }
+        let wanted_left = found.as_ref().ok().and_then(|e| self.problem.wanted_left(e));
+        SweepRow { x, found, wanted_left }
     }
 }
 

@@ -273,3 +273,22 @@ fn a_flank_in_the_way_of_an_arc_is_a_limit_and_no_wall() {
         found.evaluations
     );
 }
+
+/// A slip margin that is raised is no limit of a climb; what a point says of itself counts it against the wanted one, as `check` does.
+#[test]
+fn a_raised_slip_margin_is_missed_where_check_misses_it() {
+    for wanted in ["0.10", "2.0"] {
+        let design = changed(HUANG, &[("slip_margin = 0.10", &format!("slip_margin = {wanted}"))]);
+        let problem = problem(&design);
+        let start: Vec<f64> = task(&design).variables.iter().map(|v| v.start).collect();
+        let rows = problem.assess_at(&start).unwrap().rows;
+        let worst = rows.iter().min_by(|a, b| a.margin().total_cmp(&b.margin())).unwrap();
+        let missed = problem.missed(&problem.evaluate(&start).unwrap());
+        assert!((missed - (-worst.margin()).max(0.0)).abs() < 1e-12, "{wanted}: {missed}, {}", worst.code());
+        // The start of that design does not keep contact.
+        let row = sprag_design::sweep::Sweep::of(&design, &Default::default()).unwrap().row(start);
+        let (_, left) = row.deciding().unwrap();
+        assert!(!row.feasible() && (left - worst.margin()).abs() < 1e-5, "{wanted}: {left}");
+        assert_eq!(worst.is_slip(), wanted == "2.0");
+    }
+}

@@ -776,9 +776,9 @@ class Evaluation:
     least: float
     """The least objective; NaN where the vector is refused."""
     violation: float
-    """The largest negative limit, or 0; NaN where the vector is refused."""
+    """How far the worst limit is missed, or the wanted slip margin where that is raised; 0: none is; NaN where the vector is refused."""
     feasible: bool
-    """Whether every limit is held."""
+    """Whether every limit is held, the wanted slip margin among them."""
     refused: str | None
     """Why there is no clutch at the vector."""
 

@@ -11,7 +11,7 @@ use serde::Serialize;
 pub enum EvaluatedLine {
     /// A vector with its rows.
     Evaluated {
-        /// Whether every limit is held.
+        /// Whether every limit is held, the wanted slip margin among them.
         feasible: bool,
         /// The least objective.
         least: f64,
@@ -19,7 +19,7 @@ pub enum EvaluatedLine {
         limits: Vec<f64>,
         /// Scaled objectives, in that order.
         objectives: Vec<f64>,
-        /// By how much the worst limit is violated.
+        /// By how much the worst limit is missed, or the wanted slip margin where that is raised.
         violation: f64,
         /// The vector.
         x: Vec<f64>,
@@ -101,7 +101,7 @@ pub fn evaluate_line(
 fn answer(problem: &ClutchProblem, x: Vec<f64>) -> EvaluatedLine {
     match problem.evaluate(&x) {
         Ok(e) => {
-            let (least, violation) = (e.least_margin(), e.violation());
+            let (least, violation) = (e.least_margin(), problem.missed(&e));
             let feasible = violation <= crate::margin::RESOLUTION;
             let (objectives, limits) = (e.objectives, e.limits);
             EvaluatedLine::Evaluated { x, objectives, limits, least, violation, feasible }

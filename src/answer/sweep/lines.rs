@@ -2,7 +2,8 @@
 
 use super::head::SweepHead;
 use crate::design::{Optimize, did_you_mean};
-use crate::sweep::{Sweep, SweepRow};
+use crate::optimise::Names;
+use crate::sweep::{Decides, Sweep, SweepRow};
 
 /// One column of a table of margins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,8 +37,8 @@ pub struct ColumnsUnknown {
 pub struct SweepLines {
     head: SweepHead,
     columns: Vec<(SweepColumn, String)>,
-    /// Codes of the limits.
-    limits: Vec<String>,
+    /// Codes of objectives and limits.
+    names: Names,
 }
 
 impl SweepLines {
@@ -71,7 +72,7 @@ impl SweepLines {
             columns.insert(0, all[0].clone());
             columns
         };
-        Ok(Self { head, columns, limits: sweep.names().limits.clone() })
+        Ok(Self { head, columns, names: sweep.names().clone() })
     }
 
     /// The first two lines.
@@ -93,7 +94,11 @@ impl SweepLines {
             SweepColumn::Least => number(row.least()),
             SweepColumn::Margin => number(deciding.map(|(_, margin)| margin)),
             SweepColumn::Deciding => {
-                deciding.and_then(|(i, _)| self.limits.get(i)).cloned().unwrap_or_default()
+                let name = |(decides, _)| match decides {
+                    Decides::Limit(i) => self.names.limits.get(i),
+                    Decides::Objective(i) => self.names.objectives.get(i),
+                };
+                deciding.and_then(name).cloned().unwrap_or_default()
             }
             SweepColumn::Feasible => u8::from(row.feasible()).to_string(),
             SweepColumn::Objective(i) => {
