@@ -36,7 +36,7 @@ design=$(cd .. && pwd)/designs/huang2017-multi-arc.toml
 stage "environment"
 pip() { "$WORK/venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
 pip install numpy pandas pandas-stubs matplotlib scipy mypy pytest
-[ -z "${EXTRAS:-}" ] || pip install optuna openmdao nbclient nbformat ipykernel
+[ -z "${EXTRAS:-}" ] || pip install 'optuna>=5' openmdao nbclient nbformat ipykernel
 pip install --force-reinstall --no-deps "$WORK"/wheel/*.whl
 
 stage "types"

@@ -26,6 +26,19 @@ impl LeftOut {
     }
 }
 
+/// What is left out of a cage that the inner race drives, whose springs press with `spring_nm` (N m) at most; `as_carried`: of sprags that
+/// it carries.
+pub fn left_out_of_driven_cage(spring_nm: f64, as_carried: &str) -> LeftOut {
+    LeftOut::new(
+        "what the driven cage does to the sprags",
+        &format!(
+            "its inertia is the inner race's; its pockets leave sprags under load their play, none to those that it carries{as_carried} the \
+             spring reacts as on a free cage"
+        ),
+        &format!("at most {} of the clutch while A carries", Unit::NewtonMetre.show(spring_nm, 2)),
+    )
+}
+
 /// What every answer about `design` leaves out, at the largest torque of its limits.
 pub fn left_out_of(design: &Design) -> Vec<LeftOut> {
     left_out(&design.clutch, design.limits.largest_torque_nm())

@@ -560,6 +560,11 @@ impl Model {
         finite.then_some(out)
     }
 
+    /// What the springs of all sprags press with at most, N m.
+    pub fn spring_most_nm(&self) -> f64 {
+        self.count * self.spring_nm_per_rad * self.alpha_max_rad.abs()
+    }
+
     /// Kinetic and stored energy apart from the wedge (J): races, sprags, spring, abutment.
     pub fn energy_without_wedge<const N: usize>(
         &self,

@@ -481,14 +481,14 @@ impl ClutchProblem {
         Ok(all)
     }
 
-    /// Whether slip rows are limits too: unless slip is all that is raised.
-    fn slip_is_limit(&self) -> bool {
-        self.goals.iter().any(|g| g.objective != Objective::SlipMargin)
+    /// Whether slip margins are raised, and so are no limits of a climb.
+    fn raises_slip(&self) -> bool {
+        !self.as_checked && self.goals.iter().all(|g| g.objective == Objective::SlipMargin)
     }
 
-    /// Whether the row is raised, and so no limit of a climb.
+    /// Whether the row is one that is raised.
     pub fn is_raised(&self, m: &Margin) -> bool {
-        !self.as_checked && !self.slip_is_limit() && m.is_slip()
+        self.raises_slip() && m.is_slip()
     }
 
     fn is_limit(&self, m: &Margin) -> bool {
@@ -555,7 +555,7 @@ impl ClutchProblem {
 
     /// What the least slip margin, where that is raised, leaves of the wanted one, as a row of `check` does; `None` where none is.
     pub fn wanted_left(&self, e: &Evaluation) -> Option<f64> {
-        let raised = !self.as_checked && !self.slip_is_limit() && !e.objectives.is_empty();
+        let raised = self.raises_slip() && !e.objectives.is_empty();
         let wanted = self.limits.slip_margin.unwrap_or(0.0);
         raised.then(|| (1.0 + e.least_margin()) / (1.0 + wanted) - 1.0 - self.reserve)
     }

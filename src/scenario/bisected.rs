@@ -188,11 +188,9 @@ impl Bracket {
     /// was asked for under load hardly depends on mu. No number where they do not tell.
     fn extrapolated(&self) -> f64 {
         let of = |kind: usize| {
-            let [here, there] =
-                [Some(&self.high), self.before.as_ref()].map(|trial| trial.map(|t| (t.mu, t.used[kind])));
-            let (mu, used) = here?;
-            let power = match there {
-                Some((mu_before, used_before)) => (used / used_before).ln() / (mu / mu_before).ln(),
+            let (mu, used) = (self.high.mu, self.high.used[kind]);
+            let power = match self.before {
+                Some(before) => (used / before.used[kind]).ln() / (mu / before.mu).ln(),
                 None if kind == 0 => -1.0,
                 None => f64::NAN,
             };

@@ -182,7 +182,9 @@ impl Many {
         };
         let unlike = Unlike::new(clutch, sharing, &at_rest, 0.0);
         let axes = axes(clutch, &unlike, sharing, curve.speed_rad_s());
-        if axes.is_some() && alike.model.carried.take().is_some() && alike.free_run.is_some() {
+        // No cage carries there.
+        let cage = if axes.is_some() { alike.model.carried.take() } else { None };
+        if cage.is_some() && alike.free_run.is_some() {
             let why = NoScenario::DrivenCage("a run of sprags between axes that lie apart or give way");
             return Err(NoEachSprag::NoScenario(why));
         }
@@ -541,10 +543,8 @@ pub fn each_sprag(
         lowest_mode_hz: rings.lowest_mode_hz,
         scene_hz: scene_hz(&scenario.clutch, &many.alike, at_rest.as_ref(), largest_nm),
     });
-    let spring_nm = scenario.clutch.sprags.count as f64
-        * scenario.clutch.spring.stiffness_nm_per_rad
-        * many.alike.model.alpha_max_rad.abs();
-    let carried_spring_nm = many.alike.model.carried.map(|_| spring_nm);
+    let alike = &many.alike.model;
+    let carried_spring_nm = alike.carried.as_ref().map(|_| alike.spring_most_nm());
     let Many { sprags, idle, group, axes, .. } = many;
     // Held axes that meet are there for the inner track alone.
     let axes = axes.filter(|axes| axes.offset_m > 0.0 || axes.bearing.is_some());

@@ -142,8 +142,22 @@ def _common(text: str, body: str) -> tuple[dict[str, Any], dict[str, Any]]:
 # ---- check
 
 
+class _Shown:
+    """A row that has a margin."""
+
+    margin: float
+    """Margin as a number; 0 or more is held."""
+    slip_margin: float | None
+    """Of slip rows static over required friction, less 1."""
+
+    @property
+    def shown_margin(self) -> float:
+        """The margin as the command shows it: of slip rows the slip margin, which is held against the wanted one."""
+        return self.margin if self.slip_margin is None else self.slip_margin
+
+
 @dataclass(frozen=True)
-class Margin:
+class Margin(_Shown):
     """A limit: what is demanded, what is allowed, the margin between them."""
 
     code: str
@@ -173,11 +187,6 @@ class Margin:
     """Whether the limit is held."""
     slip_margin: float | None
     """Of slip rows static over required friction, less 1; ``None`` elsewhere."""
-
-    @property
-    def shown_margin(self) -> float:
-        """The margin as the command shows it: of slip rows the slip margin, which is held against the wanted one."""
-        return self.margin if self.slip_margin is None else self.slip_margin
 
 
 @dataclass(frozen=True)
@@ -797,7 +806,7 @@ class Evaluation:
 
 
 @dataclass(frozen=True)
-class FoundMargin:
+class FoundMargin(_Shown):
     """A margin of a design of the search."""
 
     code: str
@@ -959,7 +968,7 @@ class Optimum(_Common):
         before = {row.code: row for row in self.start.margins}
 
         def percent(row: FoundMargin | None) -> str:
-            return "" if row is None else f"{100.0 * (row.margin if row.slip_margin is None else row.slip_margin):.3g} %"
+            return "" if row is None else f"{100.0 * row.shown_margin:.3g} %"
 
         margins = [(row.code, percent(before.get(row.code)), percent(row)) for row in self.best.margins]
         return (

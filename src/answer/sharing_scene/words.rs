@@ -3,7 +3,7 @@
 use super::SharingSceneAnswer;
 use crate::answer::Answer;
 use crate::answer::drawn::drawn_words;
-use crate::answer::left_out::{LeftOut, one_by_one};
+use crate::answer::left_out::{LeftOut, left_out_of_driven_cage, one_by_one};
 use crate::clutch::Carrier;
 use crate::dynamics::{Axes, StaysWith, Stop};
 use crate::report::{Unit, significant};
@@ -150,11 +150,9 @@ impl SharingSceneAnswer<'_> {
     fn cage_drives(&self) -> Option<LeftOut> {
         self.design.clutch.cage?;
         if let Some(spring_nm) = self.found.carried_spring_nm {
-            return Some(LeftOut::new(
-                "what the driven cage does to the sprags",
-                "its inertia is the inner race's; its pockets leave sprags under load their play, none to those that it carries, which \
-                 stand as between races that stay round; the spring reacts as on a free cage",
-                &format!("at most {} of the clutch while A carries", Unit::NewtonMetre.show(spring_nm, 2)),
+            return Some(left_out_of_driven_cage(
+                spring_nm,
+                ", which stand as between races that stay round;",
             ));
         }
         let stays = |i: &usize| self.course(*i).is_none_or(|c| c.open_s == 0.0 && c.path_m == [0.0; 2]);

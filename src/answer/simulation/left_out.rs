@@ -1,7 +1,7 @@
 //! What a scene leaves out beside what every answer leaves out, with the cost where the run itself shows it.
 
 use super::{Effect, Ran, slip};
-use crate::answer::left_out::{LeftOut, left_out_of};
+use crate::answer::left_out::{LeftOut, left_out_of, left_out_of_driven_cage};
 use crate::clutch::{ContactLaw, ScenarioKind};
 use crate::dynamics::Neglected;
 use crate::report::Unit;
@@ -134,16 +134,7 @@ fn touch(damping: f64) -> String {
 fn driven_cage(scene: &Ran) -> Option<LeftOut> {
     let cage = scene.scenario.clutch.cage.filter(|_| !scene.scenario.kind.is_at_rest());
     let (_, (prepared, _)) = cage.zip(scene.outcome.as_ref().ok())?;
-    let model = &prepared.model;
-    let spring = &scene.scenario.clutch.spring;
-    let spring_nm =
-        scene.scenario.clutch.sprags.count as f64 * spring.stiffness_nm_per_rad * model.alpha_max_rad.abs();
-    Some(LeftOut::new(
-        "what the driven cage does to the sprags",
-        "its inertia is the inner race's; its pockets leave sprags under load their play, none to those that it carries, and the spring \
-         reacts as on a free cage",
-        &format!("at most {} of the clutch while A carries", Unit::NewtonMetre.show(spring_nm, 2)),
-    ))
+    Some(left_out_of_driven_cage(prepared.model.spring_most_nm(), ", and"))
 }
 
 /// Why a run in steady overrun settles beside the equilibrium, and by how much ([`crate::dynamics::swing()`]).
