@@ -262,7 +262,7 @@ impl Design {
                 Ok((common, json(&a.body)?, own(a.design(&self.design, &self.file))?, robust.transpose()?))
             }
             Err(NoSearch::Stopped) => Err(stopped()),
-            Err(why @ NoSearch::Start(_)) => Err(errors::no_clutch(py, &why)),
+            Err(why @ (NoSearch::Start(_) | NoSearch::Outside { .. })) => Err(errors::no_clutch(py, &why)),
             Err(why) => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
         }
     }

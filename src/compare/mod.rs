@@ -76,7 +76,8 @@ fn side_by_side<T>(lists: Vec<Vec<(String, T)>>) -> Vec<SideBySide<T>> {
 const PER_ARC: usize = 40;
 
 /// By how much the inner profile of `after` stands outside that of `before`, m, over the turn of the contact since first
-/// contact of `before`, rad: both in the body frame, measured along the direction in which the contact looks.
+/// contact of `before`, rad: measured along the direction in which the contact looks, the bodies laid over one another by the centre of
+/// the outer arc and the line from there to the centre of the first inner arc. So the same sprag between other races is the same.
 pub fn proud_m(before: &Profile, after: &Profile) -> Vec<[f64; 2]> {
     let until = before.end_turn_rad();
     let ends = before.arcs.iter().map(|a| a.until_rad);
@@ -84,8 +85,9 @@ pub fn proud_m(before: &Profile, after: &Profile) -> Vec<[f64; 2]> {
     let turns = starts
         .windows(2)
         .flat_map(|w| (0..=PER_ARC).map(move |i| w[0] + (w[1] - w[0]) * i as f64 / PER_ARC as f64));
-    // The same direction in the other body, whose first contact may look another way.
-    let ahead = after.beta0_rad - before.beta0_rad;
+    // The same direction in the other body, which stands turned in its frame and whose first contact may look another way.
+    let turned = |p: &Profile| p.arcs.first().map_or(0.0, |a| p.beta0_rad - a.centre_m.x.atan2(a.centre_m.y));
+    let ahead = turned(after) - turned(before);
     turns
         .filter(|&t| t <= until && t + ahead <= after.end_turn_rad())
         .map(|t| [t, reach_m(after, t + ahead) - reach_m(before, t)])
@@ -146,6 +148,15 @@ mod tests {
             };
             assert!((h - expected).abs() < 1e-15, "{turn}: {h} {expected}");
         }
+    }
+
+    #[test]
+    fn the_same_sprag_between_other_races_is_the_same() {
+        let place = |d: &Design| d.clutch.profile().unwrap();
+        let (a, b) = (place(&design(&[])), place(&design(&[("races.outer_radius_mm", "19.46")])));
+        let proud = proud_m(&a, &b);
+        assert!(a.beta0_rad != b.beta0_rad && proud.len() > 50);
+        assert!(proud.iter().filter(|p| p[0] < 0.03).all(|p| p[1].abs() < 1e-15));
     }
 
     #[test]

@@ -283,7 +283,8 @@ pub(super) fn gaps(limits: &LimitsFile, races: &RacesFile, out: &mut Findings) {
             out.refuse(
                 &[key, "races.outer_radius_mm", "races.inner_radius_mm"],
                 format!("more than the gap at rest, {} mm", geometry::mm(m(rest))),
-                "give the whole gap under load, not its opening".to_owned(),
+                "give the whole gap under load, not its opening; where a race was changed, move it by as much"
+                    .to_owned(),
             );
         }
     }

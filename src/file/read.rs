@@ -67,12 +67,19 @@ impl Design {
                 let (allowed, help) = match why {
                     EditError::UnknownName { known, .. } => {
                         let near: Vec<&str> = known.iter().map(String::as_str).collect();
-                        let there = || Some(shape::paths_that_end_in(key)).filter(|paths| !paths.is_empty());
-                        let in_scenes = known.first().is_some_and(|first| first.starts_with("scenarios["));
-                        let meant = || in_scenes.then(|| known.join(" or "));
+                        let last = key.rsplit('.').next().unwrap_or(key);
+                        // The same key in scenes of the file, else in its tables, before one that looks alike.
+                        let in_scenes = |path: &String| {
+                            path.starts_with("scenarios[") && path.rsplit('.').next() == Some(last)
+                        };
+                        let meant =
+                            || (!key.contains('[') && known.iter().all(in_scenes)).then(|| known.join(" or "));
+                        let joined = |paths: Vec<String>| Some(paths.join(" or ")).filter(|all| !all.is_empty());
+                        let same = || joined(shape::paths_of(last)).filter(|_| last == key);
                         let near = || nearest(key, &near).map(str::to_owned);
                         let symbol = || key_of_symbol(key).map(str::to_owned);
-                        let like = meant().or_else(symbol).or_else(near).or_else(|| Some(there()?.join(" or ")));
+                        let there = || joined(shape::paths_that_end_in(key));
+                        let like = meant().or_else(symbol).or_else(same).or_else(near).or_else(there);
                         let help = like.unwrap_or_else(|| {
                             "`sprag-design explain` lists every name, `explain sprags` the keys of a table".to_owned()
                         });

@@ -27,7 +27,11 @@ pub fn with_setting(source: &str, path: &str, value: &str) -> Result<String, Edi
     let missing = || EditError::MissingKey { key: path.clone() };
     let mut item = document.as_item_mut();
     for step in before.into_iter().flat_map(|b| b.split('.')) {
-        item = step_into(item, step).ok_or_else(missing)?;
+        let rows = rows_beside(item, step);
+        item = step_into(item, step).ok_or_else(|| match rows.is_empty() {
+            true => missing(),
+            false => EditError::UnknownName { name: path.clone(), known: renamed(&path, step, &rows) },
+        })?;
     }
     if typed.is_empty() {
         item.as_table_like_mut().and_then(|table| table.remove(last)).ok_or_else(missing)?;
@@ -105,6 +109,19 @@ fn step_into<'d>(item: &'d mut Item, step: &str) -> Option<&'d mut Item> {
         Err(_) => named_row(inner, row)?,
     };
     inner.get_mut(at)
+}
+
+/// What `step` may ask for where it asks for a row: each that has a name, `scenarios[swing]`.
+fn rows_beside(item: &Item, step: &str) -> Vec<String> {
+    let Some((name, _)) = step.split_once('[') else { return Vec::new() };
+    let rows = item.get(name).and_then(Item::as_array_of_tables);
+    let names = rows.into_iter().flatten().filter_map(|row| row.get("name").and_then(Item::as_str));
+    names.map(|row| format!("{name}[{row}]")).collect()
+}
+
+/// `path` with each of `rows` in place of `step`.
+fn renamed(path: &str, step: &str, rows: &[String]) -> Vec<String> {
+    rows.iter().map(|row| path.replacen(step, row, 1)).collect()
 }
 
 /// Place of the row whose `name` is this.

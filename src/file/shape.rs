@@ -226,7 +226,9 @@ impl<'a> Walk<'_, 'a> {
         path: &str,
         key_span: std::ops::Range<usize>,
     ) {
-        let fits = match (schema.get("type").and_then(Value::as_str), value.get_ref()) {
+        let kind = schema.get("type").and_then(Value::as_str);
+        let number = kind.filter(|kind| ["number", "integer"].contains(kind));
+        let fits = match (kind, value.get_ref()) {
             (Some("object"), DeValue::Table(table)) => return self.table(schema, table, path, key_span),
             (Some("array"), DeValue::Array(rows)) => {
                 let items = schema.get("items").unwrap_or(&Value::Null);
@@ -266,9 +268,16 @@ impl<'a> Walk<'_, 'a> {
             _ => allowed(schema),
         };
         let name = path.rsplit('.').next().unwrap_or(path);
-        let help = match description(schema) {
-            "" => format!("give {name} {allowed}"),
-            what => format!("give {name} {allowed} ({what})"),
+        let meant = match value.get_ref() {
+            DeValue::String(s) if number.is_some() => number_in(s),
+            _ => None,
+        };
+        let help = match (meant, description(schema)) {
+            (Some(meant), _) => {
+                format!("write {name} = {meant}: a number with a point, its unit is in the key's name")
+            }
+            (None, "") => format!("give {name} {allowed}"),
+            (None, what) => format!("give {name} {allowed} ({what})"),
         };
         let found = match value.get_ref() {
             DeValue::Array(rows) if rows.is_empty() => "an empty array".to_owned(),
@@ -276,6 +285,13 @@ impl<'a> Walk<'_, 'a> {
         };
         self.refuse(path, span, found, allowed, help);
     }
+}
+
+/// The number that a text with a comma for a point, or with its unit behind it, stands for.
+fn number_in(text: &str) -> Option<f64> {
+    let text = text.trim().replacen(',', ".", 1);
+    let number = text.trim_end_matches(|c: char| c.is_alphabetic() || "%µ° ".contains(c));
+    number.parse().ok().filter(|x: &f64| x.is_finite())
 }
 
 fn help_for_unknown(name: &str, known: &[&str]) -> String {

@@ -198,6 +198,12 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
     let common = text("material.name");
     let of = |body: &str| text(&format!("material.{body}.name")).or(common);
     let [Some(sprag), Some(inner), Some(outer)] = BODIES.map(of) else {
+        let paths = BODIES.map(|body| format!("material.{body}.name"));
+        let misspelt = |path: &str| out.text(path).is_some_and(|name| steel(name).is_none());
+        // A name that is not known is refused where it stands.
+        if misspelt("material.name") || paths.iter().any(|path| misspelt(path)) {
+            return base;
+        }
         out.refuse(
             &["limits.from_material", "material"],
             "true only where [material], or each of its bodies, has a name".to_owned(),

@@ -234,7 +234,8 @@ pub static CONTACT: Limit = Limit {
     key: None,
     name: |_| "smallest normal force in {scene} over the static one",
     rule: Rule::Itself,
-    explanation: "Smallest normal force of the inner contact while the scenario rolls, over the static one; below zero the \
+    explanation: "Smallest normal force of the inner contact while the scenario rolls, over a steady one (of an excitation under its mean torque, of a \
+                  transient under its largest); below zero the \
                   contact would have to pull, and opens. More preload or a stiffer spring keeps it closed.",
     formula: "least N_A(t) while the scenario rolls/N_A of the static state",
     source: "Huang 2017, (13) to (15), rolling",

@@ -45,6 +45,16 @@ impl Variable {
             dropped: false,
         }
     }
+
+    /// Where its value in the file lies outside its bounds: that, in words.
+    pub fn outside(&self) -> Option<String> {
+        (self.start != self.given).then(|| {
+            format!(
+                "{} is {} in the file, outside its bounds {} to {} in [optimize]",
+                self.name, self.given, self.min, self.max
+            )
+        })
+    }
 }
 
 /// Result of a search.
@@ -135,6 +145,17 @@ pub enum NoSearch {
     /// The given design cannot be evaluated.
     #[error("the given design cannot be evaluated: {0}")]
     Start(NoEvaluation),
+    /// With variables that lie outside their bounds in the file, and not at those where the search is to start.
+    #[error(
+        "{}: the search starts at the nearest bound, where there is no clutch: {why}; to mend: move the bounds about the value in the \
+         file, as far as the design may go", .outside.join("; ")
+    )]
+    Outside {
+        /// Which variables, a sentence each.
+        outside: Vec<String>,
+        /// Why there is none.
+        why: NoEvaluation,
+    },
     /// The question was refused.
     #[error("{0}")]
     Refused(Refusal),
@@ -173,9 +194,16 @@ pub fn search(
     let inside: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
     let outside = task.variables.iter().any(|v| v.start != v.given);
     let moved = outside.then(|| problem.file_at(&inside)).transpose();
-    let moved = moved.map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
+    let moved = moved.map_err(|e| no_start(task, NoEvaluation::Refused(e.to_string())))?;
     let problem = moved.map_or(problem.clone(), |text| problem.on(text));
     search_problem(&problem, task, method, desk)
+}
+
+/// No clutch where the search is to start.
+fn no_start(task: &Optimize, why: NoEvaluation) -> NoSearch {
+    let outside: Vec<String> =
+        task.variables.iter().filter_map(|v| Variable::at_start(v).outside()).collect();
+    if outside.is_empty() { NoSearch::Start(why) } else { NoSearch::Outside { outside, why } }
 }
 
 /// Search over `task`'s variables on a problem that stands already: other goals, corners, or a changed file.
@@ -190,7 +218,7 @@ pub fn search_problem(
 ) -> Result<Search, NoSearch> {
     let mut variables: Vec<Variable> = task.variables.iter().map(Variable::at_start).collect();
     let x0: Vec<f64> = variables.iter().map(|v| v.start).collect();
-    let start = whole.assess_at(&x0).map_err(NoSearch::Start)?;
+    let start = whole.assess_at(&x0).map_err(|why| no_start(task, why))?;
     let mut evaluations = 1;
     let continuous: Vec<String> =
         task.variables.iter().filter(|v| !v.whole).map(|v| v.name.clone()).collect();

@@ -272,7 +272,7 @@ impl Page {
 
 /// The foot of every printed sheet. Of a text that somebody typed only what can end neither a CSS string nor the style.
 fn foot(text: &str) -> String {
-    let kept = |c: &char| c.is_alphanumeric() || " ,.:;-_+()".contains(*c);
+    let kept = |c: &char| c.is_alphanumeric() || " ,.:;-_+()/%=#&*'~^!?[]µ⌀°".contains(*c);
     let text: String = text.chars().filter(kept).collect();
     format!("@page {{ @bottom-left {{ content: \"{text}\"; font: 8pt sans-serif; color: #444444; }} }}\n")
 }

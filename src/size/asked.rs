@@ -125,7 +125,7 @@ const SPEED: WishNumber = WishNumber {
 const MOST_RPM: f64 = 60_000.0;
 
 /// All of them, in the order of the questions.
-pub const ASKED: [WishNumber; 14] = [
+pub const ASKED: [WishNumber; 16] = [
     WishNumber {
         key: "bore",
         words: "Bore of the inner race, diameter, mm",
@@ -166,6 +166,32 @@ pub const ASKED: [WishNumber; 14] = [
         at: |w| &mut w.peak_over_nominal,
         range: (|_| [1.0, 10.0], ""),
         ..ASK
+    },
+    WishNumber {
+        key: "inner-track",
+        words: "Diameter of the inner track, on which the sprags stand, mm",
+        help: " [default: by the bore and the race space]",
+        question: None,
+        at: |w| &mut w.inner_track_m,
+        value: |r| r.inner_track_m,
+        range: (|r| [1e3 * r.bore_m, 10_000.0], ", above the bore"),
+        ..LENGTH
+    },
+    WishNumber {
+        key: "outer-track",
+        words: "Diameter of the outer track, mm",
+        help: " [default: by the inner one and the race space]",
+        question: None,
+        at: |w| &mut w.outer_track_m,
+        value: |r| r.outer_track_m,
+        range: (
+            |r| {
+                let inner = 1e3 * r.inner_track_m.unwrap_or(r.bore_m);
+                [inner + 3.0, inner + 80.0]
+            },
+            ", 1.5 to 40 mm outside the inner track, or the bore",
+        ),
+        ..LENGTH
     },
     WishNumber {
         key: "outside",
@@ -238,7 +264,8 @@ pub const ASKED: [WishNumber; 14] = [
         value: |r| r.swing.map(|s| s.amplitude_nm),
         range: (
             |r| [0.0, 0.5 * r.torque_nm],
-            ", half the nominal torque: it swings up to nominal torque and must not turn round",
+            ", half the nominal torque (where only the peak is named, that over the safety of the purpose): it swings up to nominal \
+             torque and must not turn round",
         ),
         taken: Some(("torque swings by", |r| r.swing.map_or("", |s| s.from[0]))),
         ..TORQUE

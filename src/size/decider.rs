@@ -12,6 +12,8 @@ pub enum Decider {
     Count,
     /// The sprags would be wider than the width asked for.
     Width,
+    /// The inner race would be too thin between the bore and the tracks asked for.
+    Bore,
     /// The outer race would be too thin within the outside asked for.
     Outside,
     /// No flanks close the sprag's body.
@@ -58,6 +60,7 @@ impl fmt::Display for Decider {
             Self::Nothing => "no limit",
             Self::Count => "count",
             Self::Width => "width",
+            Self::Bore => "bore",
             Self::Outside => "outside",
             Self::Flanks => "flanks",
             Self::Spring(limit) => limit.code,

@@ -81,8 +81,12 @@ pub(super) fn build(draft: &Draft, effort: Effort) -> Result<(Design, LoadState)
 /// Profile's end, flanks, spring and scenes; then every margin.
 pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Settings) -> Result<Made, Decider> {
     const ROUNDS: usize = 6;
+    // Steps of the length.
+    const LONGER: f64 = 1.06;
+    const HEAVIER: f64 = 1.18;
     let mut why = Decider::Nothing;
     for _ in 0..ROUNDS {
+        let mut longer = LONGER;
         draft.flanks_m = None;
         draft.until_rad = 1.2;
         let (design, state) = build(&draft, Effort::Full)?;
@@ -124,13 +128,15 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
                 why = Decider::Words("neighbouring sprags overlap".to_owned());
             }
             Err(row @ Decider::Row(..)) => why = row,
+            // Longer sprags are heavier, and the spring's force stays.
+            Err(off @ Decider::Spring(limit)) if limit == &LIFT_OFF => (why, longer) = (off, HEAVIER),
             Err(other) => return Err(other),
         }
         if draft.count < COUNTS.0 {
             break;
         }
         // Fewer sprags or dynamics ask for more width.
-        let length_m = (1.06 * draft.length_m * 1e4).ceil() / 1e4;
+        let length_m = (longer * draft.length_m * 1e4).ceil() / 1e4;
         lengthen(&mut draft, length_m);
         let most = if wanted.width_m.is_some() { 1.0 } else { 1.2 };
         if draft.length_m > most * longest_m(wanted, space) {
@@ -277,6 +283,8 @@ fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Ve
         format!("{} Nm nominal, {} Nm peak", short(wanted.torque_nm), short(wanted.peak_nm)),
         format!("friction {}", short(wanted.friction)),
     ];
+    asked.extend(wanted.inner_track_m.map(|m| format!("an inner track of {} mm", short(m * 1e3))));
+    asked.extend(wanted.outer_track_m.map(|m| format!("an outer track of {} mm", short(m * 1e3))));
     asked.extend(wanted.outside_m.map(|m| format!("at most {} mm outside", short(m * 1e3))));
     asked.extend(wanted.width_m.map(|m| format!("at most {} mm wide", short(m * 1e3))));
     let by_purpose = |from: &str| if from == NAMED { String::new() } else { format!(" ({from})") };

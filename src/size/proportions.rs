@@ -7,7 +7,28 @@ use super::Requirements;
 use crate::design::{Draft, KINETIC_SHARE};
 
 /// Race spaces tried, m: preferred numbers about the catalogue's 8.33 mm.
-pub(super) const SPACES_M: [f64; 7] = [2.5e-3, 4.0e-3, 6.0e-3, 8.33e-3, 12.5e-3, 18.0e-3, 25.0e-3];
+const SPACES_M: [f64; 7] = [2.5e-3, 4.0e-3, 6.0e-3, 8.33e-3, 12.5e-3, 18.0e-3, 25.0e-3];
+
+/// Those of them that there are between the tracks that are asked for: between two there is one.
+pub(super) fn spaces_m(wanted: &Requirements) -> Vec<f64> {
+    match (wanted.inner_track_m, wanted.outer_track_m) {
+        (Some(inner), Some(outer)) => vec![0.5 * (outer - inner)],
+        _ => SPACES_M.to_vec(),
+    }
+}
+
+/// Radii of the tracks, m, with a wall of the inner race of `wall` times that of [`WALLS`] where none is asked for.
+fn tracks_m(wanted: &Requirements, space_m: f64, wall: f64) -> [f64; 2] {
+    let bore = 0.5 * wanted.bore_m;
+    match (wanted.inner_track_m, wanted.outer_track_m) {
+        (Some(inner), _) => [0.5 * inner, 0.5 * inner + space_m],
+        (None, Some(outer)) => [0.5 * outer - space_m, 0.5 * outer],
+        (None, None) => {
+            let track = bore + wall * (WALLS.0 * wanted.bore_m).max(WALLS.1 * space_m);
+            [track, track + space_m]
+        }
+    }
+}
 
 /// Fewest and most sprags.
 pub(super) const COUNTS: (usize, usize) = (8, 120);
@@ -68,8 +89,7 @@ fn wider_m(space_m: f64) -> f64 {
 /// end and flanks still open.
 pub(super) fn draft(wanted: &Requirements, space_m: f64, [wall, outside]: [f64; 2]) -> Draft {
     let bore = 0.5 * wanted.bore_m;
-    let track = bore + wall * (WALLS.0 * wanted.bore_m).max(WALLS.1 * space_m);
-    let outer = track + space_m;
+    let [track, outer] = tracks_m(wanted, space_m, wall);
     let outside = to_step(outside * outer, RING_STEP_M);
     let outside = wanted.outside_m.map_or(outside, |d| outside.min(0.5 * d));
     let (r_e, r_i) = (to_step(ARCS.0 * space_m, ARC_STEP_M), to_step(ARCS.1 * space_m, ARC_STEP_M));

@@ -27,6 +27,10 @@ pub struct Requirements {
     pub torque_nm: f64,
     /// Torque at the worst, N m: the peak torque, from the nominal one up.
     pub peak_nm: f64,
+    /// Diameter of the inner track, m; `None`: by the bore and the race space, or the outer track.
+    pub inner_track_m: Option<f64>,
+    /// Diameter of the outer track, m; `None`: by the inner one and the race space.
+    pub outer_track_m: Option<f64>,
     /// Largest outer diameter, m; `None`: 1.4 times the outer track, as the maker's.
     pub outside_m: Option<f64>,
     /// Largest width of the races, m.
@@ -85,6 +89,10 @@ pub struct Wish {
     pub peak_nm: Option<f64>,
     /// Peak over nominal torque.
     pub peak_over_nominal: Option<f64>,
+    /// See [`Requirements::inner_track_m`].
+    pub inner_track_m: Option<f64>,
+    /// See [`Requirements::outer_track_m`].
+    pub outer_track_m: Option<f64>,
     /// See [`Requirements::outside_m`].
     pub outside_m: Option<f64>,
     /// See [`Requirements::width_m`].
@@ -285,6 +293,8 @@ impl Wish {
             bore_m: self.bore_m.unwrap_or(f64::NAN),
             torque_nm,
             peak_nm,
+            inner_track_m: self.inner_track_m,
+            outer_track_m: self.outer_track_m,
             outside_m: self.outside_m,
             width_m: self.width_m,
             overrun_rad_s: [inner.unwrap_or(0.0), outer.unwrap_or(0.0)],

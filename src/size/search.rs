@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::decider::Decider;
 use super::finish::{KEPT, Made, build, finish};
-use super::proportions::{COUNTS, LENGTHS, OUTSIDES, SPACES_M, THICKER, draft, lengthen, longest_m};
+use super::proportions::{COUNTS, LENGTHS, OUTSIDES, THICKER, draft, lengthen, longest_m, spaces_m};
 use super::requirements::{BadRequirement, Requirements};
 use crate::design::Draft;
 use crate::margin::{Capacities, KEEP_CONTACT, LIFT_OFF, When, load_margins};
@@ -13,7 +13,7 @@ use crate::scenario::Settings;
 use crate::wedge::Effort;
 use rayon::prelude::*;
 
-/// Thinnest outer race over the race space, where an outer diameter is asked for: a choice.
+/// Thinnest race over the race space, where an outer diameter or the outer track is asked for: a choice.
 const WALL: f64 = 0.25;
 
 /// One race space as tried.
@@ -124,6 +124,7 @@ fn first_reason(tried: &[Tried]) -> String {
         Decider::Width => {
             format!("sprags as long as the race space are wider than `width` leaves ({} sprags)", t.count)
         }
+        Decider::Bore => "the inner race would be too thin about the bore".to_owned(),
         Decider::Outside => format!(
             "the outer race would be too thin within `outside`; from {:.1} mm on it would not",
             (t.outside_m * 1e4).ceil() / 10.0
@@ -164,7 +165,7 @@ pub fn size(wanted: &Requirements, settings: &Settings) -> Result<Sized, NoSize>
 /// The smallest of every race space, or those tried.
 fn found(wanted: &Requirements, settings: &Settings) -> Result<Sized, Vec<Tried>> {
     let tried: Vec<Tried> =
-        SPACES_M.par_iter().filter_map(|&space_m| smallest(wanted, space_m, settings)).collect();
+        spaces_m(wanted).into_par_iter().filter_map(|space_m| smallest(wanted, space_m, settings)).collect();
     let made = tried.iter().enumerate().filter_map(|(i, t)| Some((i, t.volume_m3, t.made.clone()?)));
     match made.min_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((taken, _, made)) => Ok(Sized { made, tried, taken }),
@@ -199,7 +200,10 @@ fn freed(wanted: &Requirements, settings: &Settings) -> Vec<WouldDo> {
 /// The smallest ring of this race space; where none does it, the one that carries most.
 fn smallest(wanted: &Requirements, space_m: f64, settings: &Settings) -> Option<Tried> {
     let mut best: Option<Tried> = None;
-    for walls in THICKER.into_iter().flat_map(|wall| OUTSIDES.map(|outside| [wall, outside])) {
+    // Tracks that are asked for leave one inner wall.
+    let given = wanted.inner_track_m.or(wanted.outer_track_m).is_some();
+    let inner_walls = THICKER.into_iter().take(if given { 1 } else { THICKER.len() });
+    for walls in inner_walls.flat_map(|wall| OUTSIDES.map(|outside| [wall, outside])) {
         let mut draft = draft(wanted, space_m, walls);
         let mut one = width(wanted, &mut draft, space_m);
         // Scenes ask for more width, never for less.
@@ -263,9 +267,11 @@ fn width(wanted: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
         made: None,
     };
     let wall = draft.races_m[3] - draft.races_m[2];
+    let inner_wall = draft.races_m[1] - draft.races_m[0];
     let in_the_way = [
         (Decider::Count, !(COUNTS.0..=COUNTS.1).contains(&draft.count)),
         (Decider::Width, high < low),
+        (Decider::Bore, wanted.inner_track_m.is_none() && inner_wall < WALL * space_m),
         (Decider::Outside, wall < WALL * space_m),
     ];
     if let Some((what, _)) = in_the_way.into_iter().find(|(_, bars)| *bars) {

@@ -423,8 +423,8 @@ fn a_design_outside_the_bounds_is_searched_from_the_nearest_point_inside_and_say
     let told = json(&out);
     assert_eq!(told["in_file"]["r_i2_mm"], 4.08, "{}", String::from_utf8_lossy(&out.stderr));
     assert_eq!(told["start"]["variables"]["r_i2_mm"], 4.0);
-    let said =
-        "r_i2_mm is 4.08 in the file, outside its bounds 3.6 to 4 in [optimize]: the search started from 4.";
+    let said = "r_i2_mm is 4.08 in the file, outside its bounds 3.6 to 4 in [optimize]: the search started from 4, \
+         and Before is there.";
     assert!(std::fs::read_to_string(page).unwrap().contains(said));
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -233,6 +233,47 @@ fn the_command_writes_a_file_for_check_and_its_exit_codes_say_how_it_went() {
     }
 }
 
+/// More room never loses a clutch: sprags too light to lift off are made longer.
+#[test]
+fn where_a_small_ring_does_it_a_larger_one_does() {
+    let starter = Wish { purpose: purpose("starter"), ..wish(20.0, 130.0) };
+    let outside_m = |d_mm: Option<f64>| {
+        let wish = Wish { outside_m: d_mm.map(|d| d / 1e3), ..starter };
+        let found = sized(&wish.requirements()).ok()?;
+        Some(2e3 * found.made.design.clutch.races.outer_outside_radius_m)
+    };
+    for d in [45.0, 48.0, 49.2, 50.0, 56.0, 62.0] {
+        assert!(outside_m(Some(d)).is_some_and(|found| found <= d + 1e-6), "{d} mm");
+    }
+    assert!(outside_m(None).unwrap() < 65.0);
+}
+
+#[test]
+fn tracks_that_are_there_are_kept() {
+    let housing = Wish {
+        purpose: purpose("helicopter"),
+        inner_track_m: Some(0.028),
+        outer_track_m: Some(0.0447),
+        ..wish(18.0, 130.0)
+    };
+    let found = sized(&housing.requirements()).unwrap();
+    let r = &found.made.design.clutch.races;
+    assert_eq!([r.inner_radius_m, r.outer_radius_m].map(|m| (1e6 * m).round()), [14000.0, 22350.0]);
+    assert_eq!(found.tried.len(), 1);
+    // One of them: the race space is chosen.
+    let shaft = sized(&Wish { outer_track_m: None, ..housing }.requirements()).unwrap();
+    assert_eq!((1e6 * shaft.made.design.clutch.races.inner_radius_m).round(), 14000.0);
+    assert!(shaft.tried.len() > 1);
+    let bore = sized(&Wish { inner_track_m: None, ..housing }.requirements()).unwrap();
+    assert_eq!((1e6 * bore.made.design.clutch.races.outer_radius_m).round(), 22350.0);
+    assert!(bore.tried.iter().any(|t| t.decided_by == Decider::Bore), "{:?}", bore.tried);
+    let why = |wish: Wish| wish.check().unwrap_err().to_string();
+    let inside = why(Wish { inner_track_m: Some(0.017), ..housing });
+    assert!(inside.contains("inner-track: found 17 mm") && inside.contains("above the bore"), "{inside}");
+    let none = why(Wish { outer_track_m: Some(0.0285), ..housing });
+    assert!(none.contains("outer-track: found 28.5 mm; allowed: 31 to 108 mm"), "{none}");
+}
+
 #[test]
 fn what_an_engineer_asks_for_is_kept_or_named_as_what_prevents_it() {
     let most = [0.105, 0.025];

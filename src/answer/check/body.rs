@@ -103,10 +103,12 @@ impl Capacity {
         })
     }
 
-    /// Those of the limits that are held at nominal torque and at peak torque.
+    /// Those of the limits that are held at nominal torque and at peak torque; the first is no larger than the second, since a peak is no
+    /// smaller than what it is the peak of.
     pub fn nominal_and_peak(rows: &[Margin], end_torque_nm: f64) -> [Option<Self>; 2] {
         let nominal = |r: &Margin| r.limit.when == When::Nominal;
-        [Self::lowest(rows, end_torque_nm, nominal), Self::lowest(rows, end_torque_nm, |r| !nominal(r))]
+        let any = |_: &Margin| Self::asked_at_nominal(rows);
+        [Self::lowest(rows, end_torque_nm, any), Self::lowest(rows, end_torque_nm, |r| !nominal(r))]
     }
 
     /// Whether any required row is held at nominal torque.

@@ -6,6 +6,8 @@ use super::{CheckAnswer, no_friction, people_table};
 use crate::answer::page::{draw_inputs, half};
 use crate::answer::{Answer, Provenance};
 use crate::design::Design;
+use crate::export::Part;
+use crate::export::rows::{SurfaceRow, arcs};
 use crate::file::names_of_bodies;
 use crate::margin::{Margin, SceneDemand};
 use crate::material::Material;
@@ -19,6 +21,7 @@ pub(super) fn page(check: &CheckAnswer, provenance: &Provenance) -> Page {
     let (mut page, remarks) = answered("Design sheet", check, &provenance.command);
     let end_nm = check.state.curve.end_torque_nm();
     curves(&mut page, check);
+    sprag(&mut page, design);
     page.heading("Margins");
     let statics = check.rows.get(..check.static_rows).unwrap_or(&check.rows);
     page.table(
@@ -71,6 +74,34 @@ fn curves(page: &mut Page, check: &CheckAnswer) {
         (half(windup), "Torque over windup."),
         (half(tangent), "Friction that the inner contact must give; grip is lost at μs."),
     ]);
+}
+
+/// What the drawing cannot say of the sprag with all digits, as made; nothing where it cannot be placed, which the check says.
+fn sprag(page: &mut Page, design: &Design) {
+    let Ok(made) = design.made_clutch() else { return };
+    let rows = arcs(Part::Sprag, &made.drawn(design));
+    let circle = |r: &SurfaceRow, of: &dyn Fn(([f64; 2], f64)) -> f64| r.circle_m.map(of);
+    let end = |r: &SurfaceRow, end: usize, axis: usize| r.ends_m.map(|ends| ends[end][axis]);
+    let table = Rows::of(&rows)
+        .text("surface", "Surface", |r| r.surface.as_str())
+        .number("radius_mm", "Radius", Unit::Millimetre, 6, |r| circle(r, &|(_, radius)| radius))
+        .number("centre_x_mm", "Centre x", Unit::Millimetre, 5, |r| circle(r, &|(centre, _)| centre[0]))
+        .number("centre_y_mm", "Centre y", Unit::Millimetre, 5, |r| circle(r, &|(centre, _)| centre[1]))
+        .number("start_x_mm", "From x", Unit::Millimetre, 5, |r| end(r, 0, 0))
+        .number("start_y_mm", "From y", Unit::Millimetre, 5, |r| end(r, 0, 1))
+        .number("end_x_mm", "To x", Unit::Millimetre, 5, |r| end(r, 1, 0))
+        .number("end_y_mm", "To y", Unit::Millimetre, 5, |r| end(r, 1, 1))
+        .table();
+    page.heading("Sprag to make");
+    page.table(
+        "Anticlockwise round the body as drawn above: the origin is Cₑ, y points along the centre line to the outer race. A surface \
+         without a radius is flat. export writes the same as DXF, STEP or CSV.",
+        &table,
+    );
+    page.paragraph(
+        "Not on this sheet, since the design does not hold it: tolerances of form, roughness, hardness and its depth, edges, cage, \
+         shape of the spring.",
+    );
 }
 
 fn scenes(check: &CheckAnswer) -> Table {

@@ -27,7 +27,8 @@ pub(super) fn draw(answer: &ResonanceAnswer<'_>, page: &mut Page) {
         for row in answer.some_rows() {
             let name = row.first().map_or(String::new(), |c| Unit::NewtonMetre.show(c.amplitude_nm, 3));
             let points = |of: &dyn Fn(&ResonanceCell) -> Option<f64>| {
-                row.iter().filter_map(|c| Some([c.frequency_hz, of(c)?])).collect::<Vec<_>>()
+                // Where there is none the line ends.
+                row.iter().map(|c| [c.frequency_hz, of(c).unwrap_or(f64::NAN)]).collect::<Vec<_>>()
             };
             needed = needed.curve(&name, points(&|c| c.state.required_friction));
             let largest = |c: &ResonanceCell| Some(c.state.motion.as_ref().ok()?.run.peaks.normal_max_n);

@@ -8,7 +8,7 @@ use crate::design::Design;
 use crate::file::shown;
 use crate::margin::{Capacities, Margin, When, static_margins};
 use crate::optimise::{Iteration, Status};
-use crate::report::{Curve, Dash, Page, Plot, Screen, Table, Unit};
+use crate::report::{Curve, Dash, Page, Plot, Screen, Table, Unit, significant};
 use crate::wedge::WedgeCurve;
 use serde::Serialize;
 use serde_json::json;
@@ -49,18 +49,23 @@ impl SearchReport<'_> {
         &self.answer.story
     }
 
-    /// What decides in the answer, with its margin, and the torques that it carries.
+    /// What decides in the answer, with its margin, and the torques that the clutch carried and carries.
     fn holds_and_carries(&self) -> String {
         let rows = self.story().margins();
         let decides = decides(rows);
-        let after = self.answer.design(self.design, "optimum").ok();
-        let checked = after.and_then(|after| static_margins(&after, Capacities::Wanted).ok());
-        let carried = checked.into_iter().flat_map(|(state, rows, _)| {
-            let both = Capacity::nominal_and_peak(&rows, state.curve.end_torque_nm());
-            both.into_iter().zip(["nominal", "peak"]).filter_map(|(c, kind)| Some((c?, kind)))
-        });
-        let carried = carried.map(|(c, kind)| {
-            format!("carries {} {kind} ({})", Unit::NewtonMetre.show_plain(c.torque_capacity_nm, 4), c.code)
+        let capacities = |design: &Design| {
+            let (state, rows, _) = static_margins(design, Capacities::Wanted).ok()?;
+            Some(Capacity::nominal_and_peak(&rows, state.curve.end_torque_nm()))
+        };
+        let [before, after] = [Some(self.design.clone()), self.answer.design(self.design, "optimum").ok()]
+            .map(|design| design.as_ref().and_then(capacities).unwrap_or_default());
+        let carried = before.into_iter().zip(after).zip(["nominal", "peak"]);
+        let carried = carried.filter_map(|((before, after), kind)| {
+            let after = after?;
+            let before =
+                before.map_or(String::new(), |c| format!("{} -> ", significant(c.torque_capacity_nm, 4)));
+            let nm = Unit::NewtonMetre.show_plain(after.torque_capacity_nm, 4);
+            Some(format!("carries {before}{nm} {kind} ({})", after.code))
         });
         let what = decides.into_iter().chain(carried).collect::<Vec<_>>().join("; ");
         let spare = self.story().feasible() && self.story().found.problem.reserve() == 0.0;

@@ -60,12 +60,14 @@ impl Story {
                 (_, true) => Some("upper"),
                 _ => None,
             };
-            let note = match bound {
+            let at = match bound {
                 _ if v.dropped => "dropped: no influence".to_owned(),
                 Some(bound) if self.value(v) == v.best => format!("at {bound} bound"),
                 Some(bound) => format!("next to {bound} bound"),
                 None => String::new(),
             };
+            let from = if v.start == v.given { String::new() } else { format!("{} in the file", v.given) };
+            let note = [from, at].into_iter().filter(|s| !s.is_empty()).collect::<Vec<_>>().join(", ");
             (v, before, note)
         }))
         .text("variable", "Variable", |(v, _, _)| v.name.as_str())

@@ -252,14 +252,12 @@ impl Story {
     /// Variables whose value in the file lies outside their bounds, numbers that went with one, and an objective that none of them
     /// changes, or hardly so, a sentence each.
     pub fn notes_on_variables(&self, hints: &Hints) -> Vec<String> {
-        let outside = self.found.variables.iter().filter(|v| v.start != v.given);
         let line = |v: &Variable| {
-            format!(
-                "{} is {} in the file, outside its bounds {} to {} in [optimize]: the search started from {}.",
-                v.name, v.given, v.min, v.max, v.start
-            )
+            v.outside().map(|outside| {
+                format!("{outside}: the search started from {}, and Before is there.", v.start)
+            })
         };
-        let mut lines: Vec<String> = outside.map(line).collect();
+        let mut lines: Vec<String> = self.found.variables.iter().filter_map(line).collect();
         lines.extend(self.linked());
         let felt = |slopes: &Vec<f64>| slopes.iter().any(|s| s.abs() >= NO_INFLUENCE);
         // Margins of scenes are level where no friction suffices.

@@ -49,6 +49,7 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>, settings: &SimulationSet
             fast.of, fast.rate_rad_s, fast.amplitude_rad
         ));
     }
+    notes.extend(above_peak(scene));
     if let Some(s) = simulation.filter(|s| s.zeno_closures > 0) {
         notes.push(format!("accumulating changes of mode were closed at their limit: {}", s.zeno_closures));
     }
@@ -77,6 +78,21 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>, settings: &SimulationSet
         ));
     }
     notes
+}
+
+/// A sentence where the sprags are pressed harder than peak torque would.
+fn above_peak(scene: &Ran) -> Option<String> {
+    let (prepared, s) = (&scene.outcome.as_ref().ok()?.0, scene.simulation()?);
+    let peak_nm = scene.design.limits.peak_torque_nm?;
+    let torque_nm = prepared.model.curve.at_normal(s.peaks.normal_max_n)?.torque_nm;
+    let nm = |nm: f64| Unit::NewtonMetre.show(nm, 4);
+    (nm(torque_nm) != nm(peak_nm) && torque_nm > peak_nm).then(|| {
+        format!(
+            "the largest normal force is that of a steady {}: more than peak_torque_nm of [limits], {}",
+            nm(torque_nm),
+            nm(peak_nm)
+        )
+    })
 }
 
 /// A sentence where the scene is so long that its history has fewer rows than show it well.

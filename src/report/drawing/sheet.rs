@@ -202,6 +202,7 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f6
     svg.open_part([left, top + 24.0], size);
     detail::draw_races(svg, drawing, &view);
     detail::draw_sprags(svg, &view, pose, &[]);
+    detail::draw_arrow(svg, &view);
     let up = view.px([0.0, pose.outer_centre_distance_m]);
     centre_line(svg, [up[0], 0.0], [up[0], size[1]]);
     svg.close_part();
