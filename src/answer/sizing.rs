@@ -11,7 +11,7 @@ use crate::follow::Follow;
 use crate::margin::{Demand, Margin, load_state, lowest_capacity, scene_demand, scene_rows};
 use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit, significant};
 use crate::scenario::Settings;
-use crate::size::{Decider, Made, Sized, Tried};
+use crate::size::{Decider, Made, Requirements, Sized, Tried};
 use serde::Serialize;
 
 /// A first design, with every race space that was tried.
@@ -188,24 +188,44 @@ impl Said for Sizing<'_> {
     }
 }
 
-/// What turns with the races of a first design, which nobody has said: words, value, and where it comes from with what rests on it.
-pub fn taken_inertias(design: &Design) -> [(String, String, String); 2] {
-    let races = &design.clutch.races;
-    let row = |what: &str, kg_m2: f64, from: &str| {
-        (what.to_owned(), format!("{} kg m²", significant(kg_m2, 4)), from.to_owned())
+/// A number of a new clutch that nobody has said.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Taken {
+    /// What it is.
+    pub what: String,
+    /// Its value, with its unit.
+    pub value: String,
+    /// Where it comes from, and what rests on it.
+    pub from: String,
+}
+
+/// What a new clutch rests on that nobody has said.
+pub fn taken(wanted: &Requirements, found: Option<&Sized>) -> Vec<Taken> {
+    let inertia = |what: &str, kg_m2: f64, from: &str| Taken {
+        what: what.to_owned(),
+        value: format!("{} kg m²", significant(kg_m2, 4)),
+        from: from.to_owned(),
     };
-    [
-        row(
-            "turns with inner race",
-            races.inner_inertia_kg_m2,
-            "guess: ring and drive; scenes, feed and reengage rest on it (races.inner_inertia_kg_m2)",
-        ),
-        row(
-            "turns with outer race",
-            races.outer_inertia_kg_m2,
-            "the ring alone; reengage rests on it (races.outer_inertia_kg_m2)",
-        ),
-    ]
+    let asked = wanted.taken().into_iter().map(|(what, value, from)| Taken {
+        what: what.to_owned(),
+        value,
+        from: from.to_owned(),
+    });
+    let inertias = found.map(|found| &found.made.design.clutch.races).into_iter().flat_map(|races| {
+        [
+            inertia(
+                "turns with inner race",
+                races.inner_inertia_kg_m2,
+                "guess: ring and drive; scenes, feed and reengage rest on it (races.inner_inertia_kg_m2)",
+            ),
+            inertia(
+                "turns with outer race",
+                races.outer_inertia_kg_m2,
+                "the ring alone; reengage rests on it (races.outer_inertia_kg_m2)",
+            ),
+        ]
+    });
+    asked.chain(inertias).collect()
 }
 
 /// The rows that are shown only and would not hold, and what that means, a line for each scene and one for the others.

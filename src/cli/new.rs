@@ -5,10 +5,10 @@ use super::interrupt::next;
 use super::origin::FileKind;
 use super::output;
 use super::{Context, Run, Without, made, number};
-use crate::answer::sizing::taken_inertias;
-use crate::file::nearest_steel;
+use crate::answer::sizing::{Taken, taken};
+use crate::file::a_steel;
 use crate::follow::Follow;
-use crate::material::{STEELS, Steel, steel};
+use crate::material::STEELS;
 use crate::report::plain;
 use crate::size::{ASKED, BadRequirement, PURPOSES, Purpose, Requirements, Sized, Wish, WishNumber, purpose};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -124,15 +124,6 @@ fn which_race(_: &str) -> Result<f64, String> {
     Err("in overrun one race runs past the other: name the speeds, --inner-rpm and --outer-rpm".to_owned())
 }
 
-/// A steel of the library, by name.
-fn a_steel(name: &str) -> Result<&'static Steel, String> {
-    steel(name).ok_or_else(|| {
-        let names: Vec<&str> = STEELS.iter().map(|s| s.name).collect();
-        let like = nearest_steel(name).map_or(String::new(), |like| format!("did you mean {like}? "));
-        format!("{like}the library has {}", names.join(", "))
-    })
-}
-
 impl Run for SizeArgs {
     const WITHOUT: Without = ("it makes a design, it reads none", &["set"]);
 
@@ -170,13 +161,10 @@ impl Run for NewArgs {
         }
         let Some(output) = output else { return Err(Failure::malformed("needed: -o NEW.toml")) };
         let (wanted, (exit, found)) = sized(&wish, &output, "New clutch", context)?;
-        let rows = |(what, value, from): (&str, String, &str)| (what.to_owned(), value, from.to_owned());
-        let inertias = found.iter().flat_map(|found| taken_inertias(&found.made.design));
-        let taken = wanted.taken().into_iter().map(rows).chain(inertias);
-        let taken: Vec<_> = taken.collect();
-        let wide = taken.iter().map(|(_, value, _)| value.chars().count()).fold(12, usize::max);
-        let lines: String =
-            taken.iter().map(|(what, value, from)| format!("  {what:<22} {value:<wide$} {from}\n")).collect();
+        let taken = taken(&wanted, found.as_ref());
+        let wide = taken.iter().map(|row| row.value.chars().count()).fold(12, usize::max);
+        let line = |row: &Taken| format!("  {:<22} {:<wide$} {}\n", row.what, row.value, row.from);
+        let lines: String = taken.iter().map(line).collect();
         if !lines.is_empty() {
             context.answer(&format!(
                 "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"

@@ -18,6 +18,7 @@ mod edit;
 mod findings;
 mod form;
 mod geometry;
+mod get;
 mod guessed;
 mod history;
 mod inputs;
@@ -46,6 +47,7 @@ pub use edit::{
     with_sprag, with_values,
 };
 pub use form::DesignForm;
+pub use get::{NoSetting, setting_at};
 pub use guessed::as_guesses;
 pub use history::is_history;
 pub use inputs::{Input, inputs, unit_of_path};
@@ -55,5 +57,5 @@ pub use read::foreign;
 pub use scenarios::{KindKeys, SCENARIO_KINDS};
 pub use set::with_setting;
 pub use shape::{allowed, keys_of, paths_of, schema, shape_of};
-pub use steels::{beside_the_name, names_of_bodies, nearest_steel};
+pub use steels::{a_steel, beside_the_name, names_of_bodies, nearest_steel};
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};

@@ -20,9 +20,9 @@ pub fn with_setting(source: &str, path: &str, value: &str) -> Result<String, Edi
     let mut document = parse(source)?;
     let arcs = arcs(&document);
     let path = variable_path(path, arcs).unwrap_or_else(|| path.to_owned());
-    known(&path, arcs, document.as_item())?;
+    refuse_unknown(&path, arcs, document.as_item())?;
     let typed = value.trim();
-    let new = typed.parse::<Value>().unwrap_or_else(|_| Value::from(typed));
+    let new = as_wanted(&path, typed.parse::<Value>().unwrap_or_else(|_| Value::from(typed)));
     let (before, last) = path.rsplit_once('.').map_or((None, path.as_str()), |(b, l)| (Some(b), l));
     let missing = || EditError::MissingKey { key: path.clone() };
     let mut item = document.as_item_mut();
@@ -45,13 +45,22 @@ pub fn with_setting(source: &str, path: &str, value: &str) -> Result<String, Edi
     Ok(document.to_string())
 }
 
+/// 36.0 as 36 where a whole number is wanted.
+fn as_wanted(path: &str, value: Value) -> Value {
+    let whole = value.as_float().filter(|v| *v == v.round() && v.abs() < 9e15);
+    match whole.filter(|_| shape::kind_of(path) == Some("integer")) {
+        Some(whole) => Value::from(whole as i64),
+        None => value,
+    }
+}
+
 /// The contact law that is set, if it is that.
 fn law_of(path: &str, typed: &str) -> Option<&'static LawFacts> {
     LAWS.iter().find(|law| path == "contact.law" && law.key == typed.trim_matches('"'))
 }
 
 /// Refuse a path that no design file has.
-fn known(path: &str, arcs: usize, document: &Item) -> Result<(), EditError> {
+pub(super) fn refuse_unknown(path: &str, arcs: usize, document: &Item) -> Result<(), EditError> {
     if shape::is_known(path) {
         return Ok(());
     }
@@ -125,7 +134,7 @@ fn renamed(path: &str, step: &str, rows: &[String]) -> Vec<String> {
 }
 
 /// Place of the row whose `name` is this.
-fn named_row(rows: &Item, name: &str) -> Option<usize> {
+pub(super) fn named_row(rows: &Item, name: &str) -> Option<usize> {
     let is = |row: Option<&str>| row == Some(name);
     match rows {
         Item::ArrayOfTables(rows) => rows.iter().position(|row| is(row.get("name").and_then(Item::as_str))),
@@ -189,6 +198,14 @@ mod tests {
         assert_eq!(comments(&new), comments(DESIGN));
         let without = with_setting(&new, "limits.hoop_inner_mpa", "").unwrap();
         assert_eq!(Design::parse(&without, "new.toml").unwrap().limits.hoop_inner_pa, None);
+    }
+
+    #[test]
+    fn a_whole_number_may_have_a_point() {
+        assert_eq!(with_setting(DESIGN, "count", "11.0"), with_setting(DESIGN, "sprags.count", "11"));
+        let half = with_setting(DESIGN, "count", "11.5").unwrap();
+        let why = Design::parse(&half, "new.toml").unwrap_err().to_string();
+        assert!(why.contains("11.5") && why.contains("whole number"), "{why}");
     }
 
     #[test]

@@ -76,6 +76,18 @@ pub(super) fn refuse_mixed_material(out: &mut Findings) {
     );
 }
 
+/// A steel of the library, by name.
+///
+/// # Errors
+/// The names there are.
+pub fn a_steel(name: &str) -> Result<&'static Steel, String> {
+    steel(name).ok_or_else(|| {
+        let names: Vec<&str> = STEELS.iter().map(|s| s.name).collect();
+        let like = nearest_steel(name).map_or(String::new(), |like| format!("did you mean {like}? "));
+        format!("{like}the library has {}", names.join(", "))
+    })
+}
+
 /// The name of a steel that this one is misspelt for: with two digits of another it is another steel.
 pub fn nearest_steel(name: &str) -> Option<&'static str> {
     let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<Vec<char>>();
