@@ -6,8 +6,11 @@ use super::journal::{self, JournalFile};
 use super::origin::FileKind;
 use super::progress::ProgressLine;
 use super::{Context, Run};
-use crate::answer::search::{Hints, NEAREST, ROBUST, SearchAnswer, SearchFile, SearchReport, SearchSettings};
+use crate::answer::search::{
+    Hints, NEAREST, ROBUST, SearchAnswer, SearchFile, SearchReport, SearchSettings, SoFar,
+};
 use crate::design::{Design, Objective};
+use crate::follow::News;
 use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record};
 use crate::sweep::NoSample;
 use clap::Args;
@@ -167,7 +170,7 @@ impl Run for OptimizeArgs {
         ));
         let progress = context.progress("search", "evaluations", None);
         settings.follow = progress.told_by(&settings.follow);
-        let mut keeper = Keeper { progress, file, best: Default::default() };
+        let mut keeper = Keeper { progress, file, so_far: SoFar::default() };
         let started = Instant::now();
         let answer = design.optimise_recorded(&settings, &mut keeper);
         let run_time_s = started.elapsed().as_secs_f64();
@@ -284,8 +287,7 @@ fn beside(new: &Path, args: &OptimizeArgs) -> Vec<PathBuf> {
 struct Keeper {
     progress: Arc<ProgressLine>,
     file: JournalFile,
-    /// Best feasible margin of the part of this name.
-    best: (String, Option<f64>),
+    so_far: SoFar,
 }
 
 impl Record for Keeper {
@@ -298,18 +300,8 @@ impl Record for Keeper {
     }
 
     fn iterated(&mut self, it: &Iteration) {
-        let part = self.progress.part();
-        if part != self.best.0 {
-            self.best = (part.clone(), None);
-        }
-        if it.violation <= 1e-8 {
-            self.best.1 = Some(self.best.1.map_or(it.least_margin, |b| b.max(it.least_margin)));
-        }
-        let best = self.best.1.map_or("none yet".to_owned(), |b| format!("{b:.5}"));
-        let violated = match it.violated {
-            0 => "every limit held".to_owned(),
-            n => format!("{n} limits violated, the worst by {:.1e}", it.violation),
-        };
-        self.progress.describe(&format!("{part}: {:.5}, {violated}, best feasible {best}", it.least_margin));
+        self.so_far.hear(News::Begins(&self.progress.part()));
+        self.so_far.see(it);
+        self.progress.describe(&self.so_far.words());
     }
 }
