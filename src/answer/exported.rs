@@ -4,13 +4,77 @@ use super::Envelope;
 use super::left_out::LeftOut;
 use crate::clutch::EndProfile;
 use crate::design::Design;
-use crate::export::rows::{SurfacePoint, SurfaceRow, arcs};
-use crate::export::{DrawnClutch, Part};
+use crate::export::rows::{SurfacePoint, SurfaceRow, arcs, points};
+use crate::export::{DrawnClutch, MadeClutch, NoPart, Part, dxf::dxf, step::step, svg::svg};
 use crate::report::{Cell, Column, Rows, Table, Unit};
 use serde::Serialize;
 
 /// From here the drawn sprag is said to weigh otherwise than the one computed.
 const OTHER_MASS: f64 = 5e-3;
+
+/// Smallest deviation of points, mm: a hundredth of what a length standard resolves, and file sizes stay bounded.
+pub const LEAST_DEVIATION_MM: f64 = 1e-5;
+/// Deviation of points if none is asked for, mm.
+pub const DEVIATION_MM: f64 = 1e-3;
+
+/// What a part is written as.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PartFormat {
+    /// Drawing, DXF.
+    Dxf,
+    /// Solid, STEP.
+    Step,
+    /// Drawing, SVG.
+    Svg,
+    /// Table of arcs and flanks, CSV.
+    Arcs,
+    /// Table of points on them, CSV; the most that a chord between two leaves its arc, mm.
+    Points {
+        /// From [`LEAST_DEVIATION_MM`] on.
+        deviation_mm: f64,
+    },
+}
+
+impl PartFormat {
+    /// Name of the format.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dxf => "dxf",
+            Self::Step => "step",
+            Self::Svg => "svg",
+            Self::Arcs | Self::Points { .. } => "csv",
+        }
+    }
+
+    /// The clutch of a design, as `part` can be written of it in this format.
+    ///
+    /// # Errors
+    /// [`NoPart`].
+    pub fn made(self, design: &Design, part: Part) -> Result<MadeClutch, NoPart> {
+        let made = design.made_clutch()?;
+        // The arcs of a sprag are known without its flanks.
+        if self != Self::Arcs || part != Part::Sprag {
+            made.closed(part)?;
+        }
+        Ok(made)
+    }
+
+    /// The file.
+    ///
+    /// # Errors
+    /// What a table says that cannot be written.
+    pub fn text(self, part: Part, subject: &DrawnClutch<'_>) -> Result<String, String> {
+        let table = match self {
+            Self::Dxf => return Ok(dxf(part, subject)),
+            Self::Svg => return Ok(svg(part, subject)),
+            Self::Step => return Ok(step(part, subject)),
+            Self::Arcs => arcs_table(&arcs(part, subject)),
+            Self::Points { deviation_mm } => points_table(&points(part, subject, 1e-3 * deviation_mm)),
+        };
+        let bytes = table.to_csv().map_err(|e| format!("CSV: {e}"))?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+}
 
 /// A part of a design as a drawing, a solid or a table.
 #[derive(Debug, Clone, Copy)]
@@ -21,10 +85,8 @@ pub struct Exported<'a> {
     pub subject: &'a DrawnClutch<'a>,
     /// Which part.
     pub part: Part,
-    /// Name of the format.
-    pub format: &'a str,
-    /// Whether it is a solid.
-    pub is_solid: bool,
+    /// Its format.
+    pub format: PartFormat,
     /// Length of the file, bytes.
     pub bytes: usize,
 }
@@ -81,7 +143,7 @@ impl<'a> Exported<'a> {
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s; `written`: where the file is.
     pub fn envelope(&self, run_time_s: f64, written: Option<&'a str>) -> Envelope<'a, ExportedBody<'a>> {
         let body = ExportedBody {
-            format: self.format,
+            format: self.format.name(),
             part: self.part.name(),
             written,
             bytes: self.bytes,
@@ -108,7 +170,7 @@ impl<'a> Exported<'a> {
             "mass and inertia of what is added or cut away",
         )];
         if self.part.has_sprag()
-            && self.is_solid
+            && self.format == PartFormat::Step
             && self.subject.clutch.axial.end_profile != EndProfile::Square
         {
             list.push(LeftOut::new(
@@ -122,7 +184,7 @@ impl<'a> Exported<'a> {
 }
 
 /// Every arc and flank, for CSV.
-pub fn arcs_table(rows: &[SurfaceRow]) -> Table {
+fn arcs_table(rows: &[SurfaceRow]) -> Table {
     let length = |key: &str| Column::number(key, key, Unit::Millimetre, 6);
     let mut table = Table::new(vec![
         Column::text("body", "Body"),
@@ -152,7 +214,7 @@ pub fn arcs_table(rows: &[SurfaceRow]) -> Table {
 }
 
 /// Points on them, for CSV.
-pub fn points_table(points: &[SurfacePoint]) -> Table {
+fn points_table(points: &[SurfacePoint]) -> Table {
     Rows::of(points)
         .text("body", "Body", |p| p.body.as_str())
         .text("surface", "Surface", |p| p.surface.as_str())

@@ -3,14 +3,11 @@
 use crate::answer::overrun::RunningRace;
 use crate::clutch::{LAWS, LawName};
 use crate::export::Part;
-use crate::export::calculix::Variant;
+use crate::export::calculix::{SOLID_LAYERS, Variant};
 use crate::export::fmu::Fmi;
 use crate::wedge::Lengthwise;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
-
-/// Layers along half a sprag's length in a solid deck.
-const SOLID_LAYERS: usize = 4;
 
 macro_rules! choices {
     ($($type:ty { $($name:expr, $value:expr, $help:expr;)+ })+) => {

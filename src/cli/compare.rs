@@ -3,7 +3,7 @@
 use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run};
-use crate::answer::comparison::{Comparison, NoComparison, subjects};
+use crate::answer::comparison::{Comparison, MOST_COMPARED, NoComparison, subjects};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -16,15 +16,12 @@ Examples:
 The first design is the one before: dashed in every drawing and curve. Exit code 0 whatever is held: this is a comparison, `check`
 gives a verdict. Every figure is that of `check`, `stiffness` and `simulate`.";
 
-/// Designs that stand side by side on paper.
-const MOST: usize = 6;
-
 /// Arguments of `compare`.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct CompareArgs {
     /// Design files (TOML), two to six, the one before first
-    #[arg(value_name = "FILE", required = true, num_args = 2..=MOST)]
+    #[arg(value_name = "FILE", required = true, num_args = 2..=MOST_COMPARED)]
     pub files: Vec<PathBuf>,
 }
 

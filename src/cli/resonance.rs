@@ -4,8 +4,9 @@ use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::output::path_text;
 use super::{Context, Run, positive};
-use crate::answer::example_torque_nm;
-use crate::answer::resonance::{NoResonance, RESONANCE_TOLERANCES, ResonanceQuestion, example};
+use crate::answer::resonance::{
+    NoRange, NoResonance, RESONANCE_TOLERANCES, RangeOf, ResonanceQuestion, no_excitation,
+};
 use crate::design::WhichScenario;
 use crate::scenario::Settings;
 use clap::Args;
@@ -71,41 +72,29 @@ fn tolerance(text: &str) -> Result<f64, String> {
     if (low..=high).contains(&value) { Ok(value) } else { Err(format!("{low:e} to {high:e}")) }
 }
 
-/// `n` values over the range of `flag`, ends included; one where it has no width.
-fn values(flag: &str, range: Option<[f64; 2]>, n: usize) -> Result<Vec<f64>, Failure> {
-    match range {
-        None => Ok(Vec::new()),
-        Some([from, to]) if from == to => Ok(vec![from]),
-        Some([from, to]) if n == 1 => Err(Failure::malformed(format!(
-            "--points: 1 where {flag} asks for {from}:{to}; give one of them, or 2 points"
-        ))),
-        Some([from, to]) => Ok((0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect()),
-    }
+/// What is wrong with the flags.
+fn no_range(why: NoRange) -> Failure {
+    let flag = |of| if of == RangeOf::Frequency { "--frequency" } else { "--amplitude" };
+    Failure::malformed(match why {
+        NoRange::Points => "--points: needs --frequency FROM:TO, --amplitude FROM:TO or both".to_owned(),
+        NoRange::One { of, range: [from, to] } => {
+            format!("--points: 1 where {} asks for {from}:{to}; give one of them, or 2 points", flag(of))
+        }
+    })
 }
 
 impl Run for ResonanceArgs {
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         context.reads(&self.files)?;
-        if self.points.is_some() && self.frequency.is_none() && self.amplitude.is_none() {
-            return Err(Failure::malformed(
-                "--points: needs --frequency FROM:TO, --amplitude FROM:TO or both",
-            ));
-        }
-        let [frequencies, amplitudes] = self.points.unwrap_or([50, 50]);
-        let question = ResonanceQuestion {
-            frequencies_hz: values("--frequency", self.frequency, frequencies)?,
-            amplitudes_nm: values("--amplitude", self.amplitude, amplitudes)?,
-        };
+        let question =
+            ResonanceQuestion::over(self.frequency, self.amplitude, self.points).map_err(no_range)?;
         context.each(&self.files, |file, design| {
-            let scenario = design.which_scenario(self.scenario.as_deref(), |s| s.kind.frequency_hz().is_some());
+            let scenario =
+                design.which_scenario(self.scenario.as_deref(), |s| s.kind.frequency_hz().is_some());
             let scenario = scenario.map_err(|why| match why {
                 WhichScenario::None => Failure::of(
                     file,
-                    format!(
-                        "the design has no torsional excitation; add one, such as\n\n{}\n\n`sprag-design explain scenarios` lists \
-                         its keys",
-                        example(example_torque_nm(design))
-                    ),
+                    no_excitation(design) + "`sprag-design explain scenarios` lists its keys",
                 ),
                 why => Failure::which(file, why),
             })?;

@@ -48,6 +48,9 @@ fn label(compared: &Comparison<'_>, i: usize) -> String {
     file.map_or_else(|| letter(i), |file| format!("{}, {}", letter(i), file.to_string_lossy()))
 }
 
+/// Designs that stand side by side on paper.
+pub const MOST_COMPARED: usize = 6;
+
 /// Why designs were not compared.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoComparison {

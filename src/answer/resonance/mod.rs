@@ -7,7 +7,7 @@ mod words;
 pub use body::{ResonanceBody, ResonanceErrors, StateLine};
 
 use super::left_out::{LeftOut, left_out_of};
-use super::{Finding, Said};
+use super::{Finding, Said, example_torque_nm};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::numeric::setting::{BadSetting, all_in_range, in_range};
@@ -69,7 +69,70 @@ pub enum NoResonance {
 /// Tolerances that a periodic state is found at.
 pub const RESONANCE_TOLERANCES: [f64; 2] = [1e-9, 1e-3];
 
+/// Why ranges make no question.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NoRange {
+    /// Points without a range.
+    #[error("points need a range of frequencies, of amplitudes or of both")]
+    Points,
+    /// One point over a range of frequencies or amplitudes.
+    #[error("one point where {} to {} {} are asked for; give one of them, or 2 points", .range[0], .range[1], .of)]
+    One {
+        /// Of what.
+        of: RangeOf,
+        /// From and to, in its unit.
+        range: [f64; 2],
+    },
+}
+
+named! {
+    /// What a range is of.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum RangeOf {
+        /// Frequencies, Hz.
+        Frequency = "Hz",
+        /// Amplitudes, N m.
+        Amplitude = "Nm",
+    }
+    /// Its unit.
+    pub fn unit;
+}
+
+impl std::fmt::Display for RangeOf {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.unit())
+    }
+}
+
+/// Points of a map where nobody says how many.
+const POINTS: [usize; 2] = [50, 50];
+
 impl ResonanceQuestion {
+    /// Over ranges of frequencies (Hz) and amplitudes (N m), ends included, evenly: so many `points` of each, one where a range has no width.
+    ///
+    /// # Errors
+    /// [`NoRange`].
+    pub fn over(
+        frequency_hz: Option<[f64; 2]>,
+        amplitude_nm: Option<[f64; 2]>,
+        points: Option<[usize; 2]>,
+    ) -> Result<Self, NoRange> {
+        if points.is_some() && frequency_hz.is_none() && amplitude_nm.is_none() {
+            return Err(NoRange::Points);
+        }
+        let [frequencies, amplitudes] = points.unwrap_or(POINTS);
+        let even = |of, range: Option<[f64; 2]>, n: usize| match range {
+            None => Ok(Vec::new()),
+            Some([from, to]) if from == to => Ok(vec![from]),
+            Some(range) if n < 2 => Err(NoRange::One { of, range }),
+            Some([from, to]) => Ok((0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect()),
+        };
+        Ok(Self {
+            frequencies_hz: even(RangeOf::Frequency, frequency_hz, frequencies)?,
+            amplitudes_nm: even(RangeOf::Amplitude, amplitude_nm, amplitudes)?,
+        })
+    }
+
     /// Refuse frequencies and amplitudes that no shaft swings with.
     ///
     /// # Errors
@@ -78,6 +141,12 @@ impl ResonanceQuestion {
         all_in_range("frequency (Hz)", &self.frequencies_hz, [f64::MIN_POSITIVE, 1e9])?;
         all_in_range("amplitude (Nm)", &self.amplitudes_nm, [f64::MIN_POSITIVE, 1e9])
     }
+}
+
+/// That a design has no scene of the kind, and one to begin with.
+pub fn no_excitation(design: &Design) -> String {
+    let scene = example(example_torque_nm(design));
+    format!("the design has no torsional excitation; add one, such as\n\n{scene}\n\n")
 }
 
 /// A scene to begin with, for a clutch that is asked to carry `torque_nm`.

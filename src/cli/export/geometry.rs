@@ -1,19 +1,15 @@
 //! A design as a drawing, a solid or a table of its arcs.
 
 use super::{ExportArgs, Format, TableName};
-use crate::answer::exported::{Exported, arcs_table, points_table};
+use crate::answer::exported::{DEVIATION_MM, Exported, LEAST_DEVIATION_MM, PartFormat};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{Context, output};
 use crate::design::Design;
-use crate::export::rows::{arcs, points};
-use crate::export::{DrawnClutch, NoPart, Part, dxf::dxf, step::step, svg::svg};
+use crate::export::rows::arcs;
+use crate::export::{NoPart, Part};
 use crate::margin::NoMargins;
 use std::time::Instant;
 
-/// Smallest deviation of points, mm: a hundredth of what a length standard resolves, and file sizes stay bounded.
-const LEAST_DEVIATION_MM: f64 = 1e-5;
-/// Deviation of points if none is asked for, mm.
-const DEVIATION_MM: f64 = 1e-3;
 pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
     let deviation_mm = args.deviation_mm.unwrap_or(DEVIATION_MM);
     if deviation_mm < LEAST_DEVIATION_MM {
@@ -32,9 +28,16 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     }
     let started = Instant::now();
     let part = args.part.unwrap_or(Part::Sprag);
-    let listed = args.format == Format::Csv && args.table != Some(TableName::Points) && part == Part::Sprag;
-    let made = design.made_clutch();
-    let made = made.and_then(|made| if listed { Ok(made) } else { made.closed(part).map(|()| made) });
+    let format = match args.format {
+        Format::Dxf => PartFormat::Dxf,
+        Format::Svg => PartFormat::Svg,
+        Format::Step => PartFormat::Step,
+        Format::Csv | Format::Calculix | Format::Fmu => match args.table.unwrap_or(TableName::Arcs) {
+            TableName::Arcs => PartFormat::Arcs,
+            TableName::Points => PartFormat::Points { deviation_mm },
+        },
+    };
+    let made = format.made(design, part);
     let made = made.map_err(|why| match why {
         NoPart::Refused(refused) => refused.into(),
         NoPart::Profile(e) => Failure::no_clutch(&args.file, &NoMargins::Profile(e)),
@@ -45,12 +48,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         )),
     })?;
     let subject = made.drawn(design);
-    let text = match args.format {
-        Format::Dxf => dxf(part, &subject),
-        Format::Svg => svg(part, &subject),
-        Format::Step => step(part, &subject),
-        Format::Csv | Format::Calculix | Format::Fmu => csv(part, &subject, args, deviation_mm)?,
-    };
+    let text = format.text(part, &subject).map_err(Failure::Failed)?;
     let written = match &args.output {
         Some(path) => context.outputs.write(path, args.format.kind(), text.as_bytes()).then_some(path),
         None => None,
@@ -59,14 +57,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     if args.output.is_none() && !context.json {
         output::print(&text)?;
     }
-    let answer = Exported {
-        design,
-        subject: &subject,
-        part,
-        format: &args.format.name(),
-        is_solid: args.format == Format::Step,
-        bytes: text.len(),
-    };
+    let answer = Exported { design, subject: &subject, part, format, bytes: text.len() };
     if let Some(note) = answer.note() {
         context.message(&note);
     }
@@ -82,13 +73,4 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         ));
     }
     Ok(Exit::Held)
-}
-
-fn csv(part: Part, subject: &DrawnClutch, args: &ExportArgs, deviation_mm: f64) -> Result<String, Failure> {
-    let table = match args.table.unwrap_or(TableName::Arcs) {
-        TableName::Arcs => arcs_table(&arcs(part, subject)),
-        TableName::Points => points_table(&points(part, subject, 1e-3 * deviation_mm)),
-    };
-    let bytes = table.to_csv().map_err(|e| Failure::Failed(format!("CSV: {e}")))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }

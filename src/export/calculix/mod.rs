@@ -52,7 +52,14 @@ pub enum Variant {
     },
 }
 
+/// Layers along half a sprag's length in a solid deck, where nobody says another number.
+pub const SOLID_LAYERS: usize = 4;
+
 impl Variant {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::PlaneStrain, Self::PlaneStress, Self::Layer, Self::Solid { layers: SOLID_LAYERS }];
+
     /// Name, as flags and decks have it.
     pub fn name(self) -> &'static str {
         match self {
