@@ -1,6 +1,6 @@
 """Docstrings of the answers' fields from the comments of the Rust structs that they come from.
 
-    python python/docstrings.py            writes them into package/sprag_design/_answers.py
+    python python/docstrings.py            writes them into package/sprag_design/_answers.py and _made.py
     python python/docstrings.py --check    ends with 1 where they are not those of the structs
 
 A field whose key no struct has (an answer that is put together key by key) keeps its own docstring.
@@ -14,7 +14,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-ANSWERS = ROOT / "python" / "package" / "sprag_design" / "_answers.py"
+PACKAGE = ROOT / "python" / "package" / "sprag_design"
+MODULES = [PACKAGE / "_answers.py", PACKAGE / "_made.py"]
 WIDTH = 128
 
 STRUCTS = {
@@ -40,10 +41,20 @@ STRUCTS = {
     "CodeMargin": ["answer/search/realised.rs CodeMargin"],
     "Steps": ["answer/search/steps.rs Steps"],
     "Optimum": ["answer/search/body.rs SearchBody"],
+    "Progress": ["answer/search/so_far.rs SoFar"],
+    "Taken": ["answer/sizing.rs Taken"],
+    "FirstDesign": ["answer/sizing.rs SizingBody"],
+    "ComparedDesign": ["answer/comparison/body.rs ComparedDesign"],
+    "ComparedInput": ["answer/comparison/body.rs ComparedInput"],
+    "ComparedFigure": ["answer/comparison/body.rs ComparedFigure"],
+    "ComparedMargin": ["answer/comparison/body.rs ComparedMargin"],
+    "ComparedScene": ["answer/comparison/body.rs ComparedScene"],
+    "Comparison": ["answer/comparison/body.rs ComparisonBody"],
+    "Resonance": ["answer/resonance/body.rs ResonanceBody"],
 }
 """Class of Python: file and struct of Rust."""
 
-KEYS = {"passed": "pass", "beyond_end_nm": "beyond_end"}
+KEYS = {"passed": "pass", "beyond_end_nm": "beyond_end", "origin": "from"}
 """Fields whose name in Rust is another."""
 
 
@@ -117,12 +128,15 @@ def documented(source: str) -> str:
 
 
 def main() -> int:
-    given = ANSWERS.read_text(encoding="utf-8")
-    wanted = documented(given)
-    if "--check" in sys.argv[1:]:
-        return 0 if given == wanted else 1
-    ANSWERS.write_text(wanted, encoding="utf-8")
-    return 0
+    stale = 0
+    for module in MODULES:
+        given = module.read_text(encoding="utf-8")
+        wanted = documented(given)
+        if "--check" in sys.argv[1:]:
+            stale |= given != wanted
+        else:
+            module.write_text(wanted, encoding="utf-8")
+    return stale
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ use crate::simulated::Simulated;
 use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, json as object};
+use sprag_design::Follow;
 use sprag_design::answer::check::NoCheck;
 use sprag_design::answer::feed::{FeedSettings, NoFeed};
 use sprag_design::answer::life::NoLife;
@@ -16,12 +17,12 @@ use sprag_design::answer::sharing::NoSharing;
 use sprag_design::answer::sharing_scene::NoSharingScene;
 use sprag_design::answer::simulation::{self, Integration, NoAnswer};
 use sprag_design::answer::stiffness::{self, NoStiffness};
-use sprag_design::answer::{Answer, Envelope, LeftOut, search};
+use sprag_design::answer::{Answer, Envelope, LeftOut};
 use sprag_design::clutch::LAWS;
-use sprag_design::design::Objective;
+use sprag_design::design::did_you_mean;
+use sprag_design::file::{EditError, NoSetting, setting_at};
 use sprag_design::report::{Drawing, SpragPose};
 use sprag_design::scenario::Settings;
-use sprag_design::{Follow, NoSearch};
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -30,29 +31,29 @@ use std::time::Instant;
 /// A checked design.
 #[pyclass(frozen, module = "sprag_design._core")]
 pub struct Design {
-    design: Arc<sprag_design::Design>,
+    pub(crate) design: Arc<sprag_design::Design>,
     /// What stands for the file in messages.
-    file: String,
+    pub(crate) file: String,
 }
 
 /// What all answers share.
-fn common(seconds: f64, left_out: &[LeftOut], error_estimate: Value) -> PyResult<String> {
+pub fn common(seconds: f64, left_out: &[LeftOut], error_estimate: Value) -> PyResult<String> {
     json(&object!({ "run_time_s": seconds, "left_out": left_out, "error_estimate": error_estimate }))
 }
 
 /// Common keys and figures of a whole answer.
-fn parts<B: serde::Serialize>(answer: &Envelope<'_, B>) -> PyResult<(String, String)> {
+pub fn parts<B: serde::Serialize>(answer: &Envelope<'_, B>) -> PyResult<(String, String)> {
     let error = answer.error_estimate.clone().unwrap_or(Value::Null);
     Ok((common(answer.run_time_s, &answer.left_out, error)?, json(&answer.body)?))
 }
 
 /// The same while Ctrl-C has no answer: it is raised before anybody looks.
-fn stopped() -> PyErr {
+pub fn stopped() -> PyErr {
     PyRuntimeError::new_err("stopped")
 }
 
 impl Design {
-    fn of(
+    pub(crate) fn of(
         py: Python<'_>,
         found: Result<sprag_design::Design, sprag_design::DesignError>,
         file: String,
@@ -84,6 +85,21 @@ impl Design {
     fn with_settings(&self, py: Python<'_>, settings: Vec<(String, String)>) -> PyResult<Self> {
         let found = py.detach(|| self.design.with(&settings, &self.file));
         Self::of(py, found, self.file.clone())
+    }
+
+    /// What the file says at a path, as JSON, or none where it says nothing, with what stands beside it.
+    fn value(&self, path: &str) -> PyResult<(Option<String>, String)> {
+        match setting_at(&self.design.source, path) {
+            Ok(value) => Ok((Some(json(&value)?), String::new())),
+            Err(why @ NoSetting::NotHeld { .. }) => Ok((None, why.to_string())),
+            Err(NoSetting::Edit(why)) => {
+                let near = match &why {
+                    EditError::UnknownName { name, known } => did_you_mean(name, known),
+                    _ => String::new(),
+                };
+                Err(PyKeyError::new_err(format!("{why}{near}")))
+            }
+        }
     }
 
     /// Name of the design.
@@ -212,58 +228,6 @@ impl Design {
             }
             Err(why @ NoAnswer::NoSuchScenario { .. }) => Err(PyKeyError::new_err(why.to_string())),
             Err(why @ NoAnswer::Refused(_)) => Err(PyValueError::new_err(why.to_string())),
-        }
-    }
-
-    /// Search for a better design: common keys and figures as JSON, the design found, and the robust one.
-    fn optimize(
-        &self,
-        py: Python<'_>,
-        evaluations: usize,
-        starts: Option<usize>,
-        swarm: Option<usize>,
-        tolerance: f64,
-        full: bool,
-        step_mm: Option<f64>,
-        reserve: Option<f64>,
-        front: Vec<String>,
-        front_steps: usize,
-        robust: bool,
-        draws: usize,
-    ) -> PyResult<(String, String, Self, Option<Self>)> {
-        let aims = front.iter().map(|aim| aim.parse::<Objective>()).collect::<Result<Vec<_>, _>>();
-        let aims = aims.map_err(|why| PyValueError::new_err(format!("objectives {front:?}: {why}")))?;
-        let (design, stop) = (Arc::clone(&self.design), Follow::new());
-        let ask = search::SearchSettings {
-            evaluations,
-            starts,
-            swarm,
-            tolerance,
-            full,
-            step_mm,
-            reserve,
-            front: aims,
-            front_steps,
-            robust,
-            draws,
-            follow: stop.clone(),
-        };
-        let answer = compute(py, &stop, move || {
-            let started = Instant::now();
-            design.optimise(&ask).map(|a| (a, started.elapsed().as_secs_f64()))
-        })?;
-        match answer {
-            Ok((a, seconds)) => {
-                let common = common(seconds, &a.left_out, object!(a.body.objective_error))?;
-                let own = |found| Self::of(py, found, self.file.clone());
-                let robust = a.story.robust.as_ref().map(|robust| {
-                    own(sprag_design::Design::parse_in(&self.design.folder, &robust.file, &self.file))
-                });
-                Ok((common, json(&a.body)?, own(a.design(&self.design, &self.file))?, robust.transpose()?))
-            }
-            Err(NoSearch::Stopped) => Err(stopped()),
-            Err(why @ (NoSearch::Start(_) | NoSearch::Outside { .. })) => Err(errors::no_clutch(py, &why)),
-            Err(why) => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
         }
     }
 

@@ -1,8 +1,9 @@
 //! Exceptions of the package, which are Python's own classes in `sprag_design._errors`.
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use sprag_design::DesignError;
+use sprag_design::cli::exit::Failure;
 use std::any::Any;
 
 fn of_class(
@@ -27,6 +28,21 @@ pub fn refused(py: Python<'_>, why: &DesignError) -> PyErr {
 pub fn no_clutch(py: Python<'_>, why: &impl ToString) -> PyErr {
     let message = why.to_string();
     of_class(py, "NoClutch", |class| Ok(class.call1((message,))?.unbind()))
+}
+
+/// No clutch of the family does what is asked; `tried`: every race space, as JSON.
+pub fn not_sized(py: Python<'_>, why: String, tried: String) -> PyErr {
+    of_class(py, "NotSized", |class| Ok(class.call1((why, tried))?.unbind()))
+}
+
+/// A journal that cannot be used. An option of the command is an argument here.
+pub fn failed(why: &Failure) -> PyErr {
+    let message =
+        why.to_json()["message"].as_str().unwrap_or_default().replace("with --journal", "as journal");
+    match why {
+        Failure::Failed(_) => PyOSError::new_err(message),
+        _ => PyValueError::new_err(message),
+    }
 }
 
 /// A panic of the library, which is a fault of it.

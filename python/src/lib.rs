@@ -5,8 +5,12 @@
 
 mod design;
 mod errors;
+mod export;
+mod made;
 mod pool;
 mod problem;
+mod resonance;
+mod search;
 mod simulated;
 mod sweep;
 
@@ -36,5 +40,15 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(contact_laws, module)?)?;
     module.add_function(wrap_pyfunction!(pool::forked, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::map_tables, module)?)?;
+    module.add_function(wrap_pyfunction!(search::optimize, module)?)?;
+    module.add_function(wrap_pyfunction!(resonance::resonance, module)?)?;
+    module.add_class::<made::Compared>()?;
+    module.add_function(wrap_pyfunction!(made::purposes, module)?)?;
+    module.add_function(wrap_pyfunction!(made::first_design, module)?)?;
+    module.add_function(wrap_pyfunction!(made::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(export::sheet, module)?)?;
+    module.add_function(wrap_pyfunction!(export::part, module)?)?;
+    module.add_function(wrap_pyfunction!(export::deck, module)?)?;
+    module.add_function(wrap_pyfunction!(export::unit, module)?)?;
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Threads that compute while a Python thread waits: Ctrl-C is heard, a fork makes a pool of its own.
 
 use crate::errors;
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use sprag_design::Follow;
@@ -39,6 +39,30 @@ pub fn compute<T: Send + 'static>(
     follow: &Follow,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
+    let (answer, asked) = watched(py, follow, work, |_| Ok(true))?;
+    asked.map_or(Ok(answer), Err)
+}
+
+/// Whether what ended a computation was Ctrl-C, so that its answer is one of a stop.
+///
+/// # Errors
+/// Whatever else ended it.
+pub fn interrupted(py: Python<'_>, asked: Option<PyErr>) -> PyResult<bool> {
+    match asked {
+        None => Ok(false),
+        Some(why) if why.is_instance_of::<PyKeyboardInterrupt>(py) => Ok(true),
+        Some(why) => Err(why),
+    }
+}
+
+/// The same, and the answer of what was stopped too, with what stopped it: Ctrl-C, or an exception of `look`. That is asked meanwhile, on
+/// this thread, whether to go on, and once more at the end.
+pub fn watched<T: Send + 'static>(
+    py: Python<'_>,
+    follow: &Follow,
+    work: impl FnOnce() -> T + Send + 'static,
+    mut look: impl FnMut(Python<'_>) -> PyResult<bool>,
+) -> PyResult<(T, Option<PyErr>)> {
     let (say, mut said) = channel();
     let task = move || {
         // A panic is an exception of the caller, not the end of the process.
@@ -59,20 +83,25 @@ pub fn compute<T: Send + 'static>(
             own.spawn(task);
         }
     }
-    let mut asked = None;
+    let (mut asked, mut going) = (None, true);
     loop {
         let (back, got) = py.detach(move || wait(said));
         said = back;
         match got {
-            Ok(Ok(answer)) => return asked.map_or(Ok(answer), Err),
+            Ok(Ok(answer)) => {
+                let asked = if going { look(py).err() } else { asked };
+                return Ok((answer, asked));
+            }
             Ok(Err(panic)) => return Err(errors::panicked(panic.as_ref())),
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("the computation was lost"));
             }
             Err(RecvTimeoutError::Timeout) if asked.is_none() => {
-                if let Err(interrupt) = py.check_signals() {
+                let on = py.check_signals().and_then(|()| if going { look(py) } else { Ok(true) });
+                if !matches!(on, Ok(true)) {
                     follow.stop();
-                    asked = Some(interrupt);
+                    going = false;
+                    asked = on.err();
                 }
             }
             Err(RecvTimeoutError::Timeout) => {}

@@ -81,7 +81,7 @@ def test_an_answer_prints_in_a_line(design: sd.Design) -> None:
         assert "\n" not in repr(answer) and len(repr(answer)) < 1000
         assert repr(answer).startswith(f"<{type(answer).__name__}")
     check = design.check()
-    assert check.verdict in str(check) and "margins" in str(check)
+    assert check.verdict in str(check)
 
 
 def test_a_problem_says_whose_it_is_and_what_it_varies(design: sd.Design) -> None:

@@ -41,6 +41,7 @@ from ._answers import (
     Overrun,
     OverrunPoint,
     Plane,
+    Progress,
     Reengagement,
     SceneSprag,
     Sharing,
@@ -57,8 +58,24 @@ from ._answers import (
     Variable,
     WorstSlip,
 )
-from ._design import Design, Problem, map_tables
-from ._errors import DesignError, DesignProblem, NoClutch
+from ._design import Design, map_tables
+from ._errors import DesignError, DesignProblem, Interrupted, NoClutch, NotSized
+from ._made import (
+    ComparedDesign,
+    ComparedFigure,
+    ComparedInput,
+    ComparedMargin,
+    ComparedScene,
+    Comparison,
+    FirstDesign,
+    Page,
+    PeriodicState,
+    Resonance,
+    Taken,
+    TriedSpace,
+)
+from ._new import compare, new, purposes, size
+from ._problem import Problem
 
 __version__: str = _core.__version__
 
@@ -67,6 +84,12 @@ __all__ = [
     "BlowAt",
     "Capacity",
     "Check",
+    "ComparedDesign",
+    "ComparedFigure",
+    "ComparedInput",
+    "ComparedMargin",
+    "ComparedScene",
+    "Comparison",
     "Curve",
     "Deciding",
     "Design",
@@ -78,9 +101,11 @@ __all__ = [
     "Feed",
     "FilmOverrun",
     "FilmOverrunLine",
+    "FirstDesign",
     "Found",
     "Front",
     "FrontPoint",
+    "Interrupted",
     "Junction",
     "LeftOut",
     "Life",
@@ -88,12 +113,17 @@ __all__ = [
     "LifePlace",
     "Margin",
     "NoClutch",
+    "NotSized",
     "Optimum",
     "Overrun",
     "OverrunPoint",
+    "Page",
+    "PeriodicState",
     "Plane",
     "Problem",
+    "Progress",
     "Reengagement",
+    "Resonance",
     "SceneSprag",
     "Sharing",
     "SharingScene",
@@ -106,10 +136,16 @@ __all__ = [
     "SpringFeed",
     "Stiffness",
     "SweepMap",
+    "Taken",
+    "TriedSpace",
     "Variable",
     "WorstSlip",
+    "compare",
     "contact_laws",
     "map_tables",
+    "new",
+    "purposes",
+    "size",
 ]
 
 

@@ -118,10 +118,11 @@ class _Common:
         return typing.cast("dict[str, Any]", json.loads(json.dumps(self._data)))
 
     def __repr__(self) -> str:
-        names = (f.name for f in dataclasses.fields(self) if not f.name.startswith("_"))
-        verdict = getattr(self, "verdict", None)
-        said = f": {verdict}" if verdict else ""
-        return f"<{type(self).__name__}{said}; {', '.join(names)}>"
+        return f"<{type(self).__name__}: {self._said()}>"
+
+    def _said(self) -> str:
+        """What was found, in one line."""
+        return str(getattr(self, "verdict", ""))
 
 
 def _common(text: str, body: str) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -396,7 +397,7 @@ _POINT = (
 )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Curve:
     """The static curve by one contact law: arrays with one value for each torque that the curve reaches."""
 
@@ -446,6 +447,15 @@ class Curve:
 
         return pd.DataFrame({n: getattr(self, n) for n in (*_POINT, "arc", "straddles_junction")})
 
+    def _said(self) -> str:
+        end = f"curve ends {self.end.reason} at {self.end.torque_nm:.5g} Nm"
+        if not len(self.torque_nm):
+            return f"{self.contact}, no torque that it reaches; {end}"
+        return f"{self.contact}, {self.windup_deg[-1]:.4g} deg at {self.torque_nm[-1]:.5g} Nm; {end}"
+
+    def __repr__(self) -> str:
+        return f"<Curve: {self._said()}>"
+
 
 def _curve(law: dict[str, Any]) -> Curve:
     import numpy as np
@@ -469,6 +479,13 @@ class Stiffness(_Common):
 
     laws: tuple[Curve, ...]
     """A curve for each contact law asked for."""
+    short_of_nm: float | None
+    """The ``max_torque_nm`` that was asked for, where every curve ends before it: the torques go up to the last end. ``None``: they go
+    up to it."""
+
+    def _said(self) -> str:
+        short = "" if self.short_of_nm is None else f"; short of the {self.short_of_nm:g} Nm asked for"
+        return "; ".join(law._said() for law in self.laws) + short
 
     @property
     def torque_nm(self) -> Numbers:
@@ -501,20 +518,27 @@ class Stiffness(_Common):
 
         return pd.concat([law.to_pandas().assign(contact=law.contact) for law in self.laws], ignore_index=True)
 
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Torque over windup, a curve for each law. Needs matplotlib."""
+    def plot(self, ax: Axes | None = None, *, label: str = "") -> Axes:
+        """Torque over windup, a curve for each law. ``label``: what tells these curves from others in the same axes, such as the name
+        of a design; left out they are numbered. Needs matplotlib."""
         ax = _axes(ax)
+        taken = [line.get_label() for line in ax.lines]
         for law in self.laws:
-            ax.plot(law.windup_deg, law.torque_nm, marker=".", label=law.contact)
+            name = f"{label}, {law.contact}" if label and len(self.laws) > 1 else label or law.contact
+            again = sum(other == name or str(other).startswith(f"{name} (") for other in taken)
+            ax.plot(law.windup_deg, law.torque_nm, marker=".", label=f"{name} ({again + 1})" if again else name)
         ax.set_xlabel("Windup, deg")
         ax.set_ylabel("Torque, Nm")
-        ax.legend()
+        # The curves rise to the right: what they leave free is above on the left.
+        ax.legend(loc="upper left")
         return ax
 
 
-def stiffness_of(found: tuple[str, str]) -> Stiffness:
+def stiffness_of(found: tuple[str, str], asked_nm: float | None) -> Stiffness:
     shared, data = _common(*found)
-    return Stiffness(laws=tuple(_curve(law) for law in data["laws"]), **shared)
+    laws = tuple(_curve(law) for law in data["laws"])
+    short = asked_nm is not None and asked_nm > max(law.end.torque_nm for law in laws)
+    return Stiffness(laws=laws, short_of_nm=asked_nm if short else None, **shared)
 
 
 # ---- simulate
@@ -716,6 +740,9 @@ class Simulation(_Common):
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.history]
 
+    def _said(self) -> str:
+        return self.verdict_line
+
     @property
     def verdict_line(self) -> str:
         """The verdict in one line."""
@@ -754,6 +781,29 @@ def simulation_of(found: _core.Simulated) -> Simulation:
 
 
 # ---- optimize
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a search is."""
+
+    part: str
+    """The part of the search that goes on."""
+    evaluations: int
+    """Evaluations of the clutch, of all parts."""
+    best: float | None
+    """Largest least objective of a step of this part that held every limit."""
+    least_margin: float | None
+    """Least objective at the last step."""
+    violation: float | None
+    """How far its worst limit is missed."""
+    violated: int | None
+    """How many of its limits are."""
+    words: str
+    """The same as the command's progress line has it."""
+
+    def __str__(self) -> str:
+        return f"{self.words}; {self.evaluations} evaluations"
 
 
 @dataclass(frozen=True)
@@ -880,7 +930,7 @@ class Optimum(_Common):
     """What a search for a better design found."""
 
     design: Design
-    """The design found; where nothing holds every limit the nearest one."""
+    """The design found, its file the one that the command writes; where nothing holds every limit the nearest one."""
     robust_design: Design | None
     """The design that holds at every corner of the tolerances, or comes as near as was found, where that was asked for."""
     status: str
@@ -1003,7 +1053,7 @@ class FrontPoint:
     """Each objective in its own unit."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Front:
     """Designs between objectives, of which none is better in all of them."""
 
@@ -1017,6 +1067,9 @@ class Front:
     def to_dict(self) -> dict[str, Any]:
         """The object of ``optimize --pareto ... --json``."""
         return self.optimum.to_dict()
+
+    def __repr__(self) -> str:
+        return f"<Front: {len(self.points)} designs between {' and '.join(self.objectives)}; optimum: {self.optimum.verdict}>"
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each design, objectives first. Needs pandas."""
@@ -1539,7 +1592,7 @@ class SceneSprag:
     """Time without contact after it has caught, s."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SharingScene(_Common):
     """A scene with its sprags one by one."""
 
@@ -1744,7 +1797,7 @@ class Plane:
     """What decides there, or nothing."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SweepMap:
     """What tables of margins show."""
 
@@ -1771,6 +1824,9 @@ class SweepMap:
     def to_dict(self) -> dict[str, Any]:
         """The object of ``map --json``."""
         return typing.cast("dict[str, Any]", json.loads(json.dumps(self._data)))
+
+    def __repr__(self) -> str:
+        return f"<SweepMap: {self.verdict}>"
 
     def plot(self, plane: int = 0, ax: Axes | None = None) -> Axes:
         """The best value over a plane. Needs matplotlib."""

@@ -1,11 +1,30 @@
 """Compiled part of sprag_design."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import final
 
-__all__ = ["Design", "Problem", "Simulated", "__version__", "contact_laws", "forked", "map_tables", "run_command"]
+__all__ = [
+    "Compared",
+    "Design",
+    "Problem",
+    "Simulated",
+    "__version__",
+    "compare",
+    "contact_laws",
+    "deck",
+    "first_design",
+    "forked",
+    "map_tables",
+    "optimize",
+    "part",
+    "purposes",
+    "resonance",
+    "run_command",
+    "sheet",
+    "unit",
+]
 __version__: str
 
 @final
@@ -15,6 +34,7 @@ class Design:
     @staticmethod
     def parse(source: str, folder: str | PathLike[str], file: str) -> Design: ...
     def with_settings(self, settings: Sequence[tuple[str, str]]) -> Design: ...
+    def value(self, path: str) -> tuple[str | None, str]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -43,20 +63,6 @@ class Design:
         most_steps: int | None,
         full: bool,
     ) -> Simulated: ...
-    def optimize(
-        self,
-        evaluations: int,
-        starts: int | None,
-        swarm: int | None,
-        tolerance: float,
-        full: bool,
-        step_mm: float | None,
-        reserve: float | None,
-        front: Sequence[str],
-        front_steps: int,
-        robust: bool,
-        draws: int,
-    ) -> tuple[str, str, Design, Design | None]: ...
     def life(self) -> tuple[str, str]: ...
     def overrun(
         self, outer: bool, speeds_rpm: Sequence[float], temperatures_c: Sequence[float]
@@ -109,6 +115,52 @@ class Simulated:
     def verdict_line(self) -> str: ...
     def history(self) -> dict[str, bytes | list[str] | list[int | None]]: ...
 
+@final
+class Compared:
+    def parts(self) -> tuple[str, str, str]: ...
+    def page(self, by: str) -> str: ...
+
+def optimize(
+    design: Design,
+    evaluations: int,
+    starts: int | None,
+    swarm: int | None,
+    tolerance: float,
+    full: bool,
+    step_mm: float | None,
+    reserve: float | None,
+    front: Sequence[str],
+    front_steps: int,
+    robust: bool,
+    draws: int,
+    journal: str | PathLike[str] | None,
+    by: str,
+    progress: Callable[[str], bool] | None,
+) -> tuple[str, str, Design, Design | None, list[str], bool]: ...
+def resonance(
+    design: Design,
+    scenario: str | None,
+    frequency_hz: Sequence[float] | None,
+    amplitude_nm: Sequence[float] | None,
+    points: Sequence[int] | None,
+    tolerance: float,
+) -> tuple[str, str, bool]: ...
+def purposes() -> list[tuple[str, str]]: ...
+def first_design(
+    purpose: str | None, numbers: Sequence[tuple[str, str, float]], material: str | None
+) -> tuple[str, str, str, str, Design]: ...
+def compare(designs: Sequence[Design]) -> Compared: ...
+def sheet(design: Design, by: str) -> str: ...
+def part(design: Design, format: str, part: str, deviation_mm: float | None) -> tuple[str, str | None]: ...
+def deck(
+    design: Design,
+    variant: str | None,
+    mesh_mm: float | None,
+    torque_nm: float | None,
+    increments: int | None,
+    friction: float | None,
+) -> str: ...
+def unit(design: Design, three: bool, library: str | PathLike[str], clutch_alone: bool) -> bytes: ...
 def run_command(args: Sequence[str]) -> int: ...
 def contact_laws() -> list[str]: ...
 def forked() -> None: ...

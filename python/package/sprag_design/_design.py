@@ -5,12 +5,11 @@ from __future__ import annotations
 import html
 import json
 import math
-import numbers
 import os
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _core
 from ._answers import (
@@ -21,14 +20,13 @@ from ._answers import (
     Front,
     Life,
     Optimum,
+    Progress,
     Reengagement,
     Sharing,
     SharingScene,
     Simulation,
     Stiffness,
     SweepMap,
-    Variable,
-    _object,
     check_of,
     front_of,
     map_of,
@@ -38,40 +36,12 @@ from ._answers import (
     stiffness_of,
 )
 
-if TYPE_CHECKING:
-    from ._answers import Numbers
-
-Setting = bool | int | float | str | Sequence[Any] | Mapping[str, Any]
-
-
-def _toml(value: Any) -> str:
-    """A value as a design file has it."""
-    if getattr(value, "ndim", None) == 0:
-        # A number of numpy, be it an array without an axis.
-        value = value.item()
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return json.dumps(value)
-    if isinstance(value, numbers.Integral):
-        return str(int(value))
-    if isinstance(value, numbers.Real):
-        return repr(float(value))
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{json.dumps(str(key))} = {_toml(item)}" for key, item in value.items()) + " }"
-    if isinstance(value, Iterable):
-        return "[" + ", ".join(_toml(item) for item in value) + "]"
-    raise TypeError(f"{value!r} is no value of a design file: a number, a text, true, false, a list or a table (dict) of these is")
-
-
-def _positive(name: str, values: Iterable[float]) -> list[float]:
-    """Numbers above 0, or an exception that says which is none."""
-    listed = [float(value) for value in values]
-    for value in listed:
-        if not 0.0 < value < math.inf:
-            raise ValueError(f"{name} {value}: allowed: a finite number above 0")
-    return listed
-
+from ._arguments import Setting, called, listed, positive, span, toml, whole, whole_or_none
+from ._errors import Interrupted
+from ._export import export
+from ._files import write
+from ._made import Page, Resonance
+from ._problem import Problem
 
 class Design:
     """A checked clutch design, which never changes. :meth:`with_` and :meth:`set` give another."""
@@ -133,7 +103,7 @@ class Design:
 
         Raises :class:`DesignError` where a name is unknown or the new design is refused.
         """
-        return Design(self._core.with_settings([(key, _toml(value)) for key, value in values.items()]))
+        return Design(self._core.with_settings([(key, toml(value)) for key, value in values.items()]))
 
     def set(self, path: str, value: Setting) -> Design:
         """The same design with another value at a dotted path of the file, rows counted from 0 or by their name:
@@ -141,17 +111,40 @@ class Design:
 
         Raises :class:`DesignError`.
         """
-        return Design(self._core.with_settings([(path, _toml(value))]))
+        return Design(self._core.with_settings([(path, toml(value))]))
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the design file. A file that is there is not replaced; where the disk is full nothing is left."""
-        with open(path, "x", encoding="utf-8", newline="") as file:
-            try:
-                file.write(self.text)
-                file.flush()
-            except OSError:
-                os.unlink(path)
-                raise
+    def __getitem__(self, path: str) -> Any:
+        """What the file says, in the units of its keys: by the short names of variables, ``design["r_i2_mm"]``, or by dotted path as
+        :meth:`set` takes it, ``design["friction.static"]``, ``design["scenarios[high-10].amplitude_nm"]``. A table is a dict.
+
+        Raises ``KeyError`` with the names that there are.
+        """
+        value, why = self._core.value(_name(path))
+        if value is None:
+            raise KeyError(why)
+        return json.loads(value)
+
+    def get(self, path: str, default: Any = None) -> Any:
+        """The same, or ``default`` where this file says nothing of it.
+
+        Raises ``KeyError`` for a name that no design file has.
+        """
+        value, _ = self._core.value(_name(path))
+        return default if value is None else json.loads(value)
+
+    def __contains__(self, path: object) -> bool:
+        """Whether the file says something there."""
+        try:
+            return isinstance(path, str) and self._core.value(path)[0] is not None
+        except KeyError:
+            return False
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
+        """Write the design file. A file that is there is replaced only with ``force``; where the disk is full nothing is left.
+
+        Raises ``FileExistsError``.
+        """
+        write(path, self.text, force=force)
 
     def check(self) -> Check:
         """Hold the design against each of its limits.
@@ -162,23 +155,27 @@ class Design:
 
     def stiffness(
         self,
-        torques_nm: Iterable[float] | None = None,
+        torques_nm: float | Iterable[float] | None = None,
         *,
-        laws: Sequence[str] = (),
+        laws: str | Sequence[str] = (),
         max_torque_nm: float | None = None,
     ) -> Stiffness:
         """The static curve at rest, at torques in N m or at 20 even ones up to ``max_torque_nm`` (the design's peak torque
         where that is left out), by the contact laws named, or the design's own (:func:`contact_laws`).
 
-        Torques beyond the end of a curve have no row: they stand in ``beyond_end_nm``, and a warning names them.
+        Torques beyond the end of a curve have no row: they stand in ``beyond_end_nm``, and a warning names them. Where every curve ends
+        before ``max_torque_nm``, the torques go up to the last end, which a warning and ``short_of_nm`` tell.
 
         Raises ``ValueError`` for a torque that is not above 0, :class:`NoClutch`.
         """
-        torques = [] if torques_nm is None else [float(t) for t in torques_nm]
+        torques = [] if torques_nm is None else listed("torques_nm", torques_nm)
         if torques and max_torque_nm is not None:
             raise ValueError("torques_nm and max_torque_nm: give one of the two")
         laws = [laws] if isinstance(laws, str) else list(laws)
-        found = stiffness_of(self._core.stiffness(torques, laws, max_torque_nm))
+        found = stiffness_of(self._core.stiffness(torques, laws, max_torque_nm), max_torque_nm)
+        if found.short_of_nm is not None:
+            ends = "; ".join(f"{law.contact}: curve ends {law.end.reason} at {law.end.torque_nm:.5g} Nm" for law in found.laws)
+            warnings.warn(f"max_torque_nm {found.short_of_nm:g} is beyond the end, the torques go up to that ({ends})", stacklevel=2)
         if beyond := sorted({nm for law in found.laws for nm in law.beyond_end_nm}):
             warnings.warn(f"beyond the end of the curve, and no rows: {beyond} N m", stacklevel=2)
         return found
@@ -189,9 +186,9 @@ class Design:
         *,
         tolerance: float | None = None,
         step_s: float | None = None,
-        rows: int | None = None,
+        rows: float | None = None,
         window_s: tuple[float, float] | None = None,
-        most_steps: int | None = None,
+        most_steps: float | None = None,
         full: bool = False,
         method: str = "event",
         band_m_s: float | None = None,
@@ -202,10 +199,7 @@ class Design:
         """
         if method not in ("event", "published"):
             raise ValueError(f"method {method!r}: allowed: event, published")
-        if rows is not None and rows < 2:
-            raise ValueError(f"rows {rows}: allowed: 2 or more")
-        if most_steps is not None and most_steps < 1:
-            raise ValueError(f"most_steps {most_steps}: allowed: 1 or more")
+        rows_asked, steps = whole_or_none("rows", rows, 2), whole_or_none("most_steps", most_steps, 1)
         if method == "event" and band_m_s is not None:
             raise ValueError("band_m_s: only with method published")
         if method == "published":
@@ -216,90 +210,230 @@ class Design:
                 raise ValueError(f"band_m_s {band_m_s}: allowed: a finite number above 0")
         return simulation_of(
             self._core.simulate(
-                scenario, method == "published", band_m_s, tolerance, step_s, rows, window_s, most_steps, full
+                scenario, method == "published", band_m_s, tolerance, step_s, rows_asked, window_s, steps, full
             )
         )
 
     def optimize(
         self,
         *,
-        evaluations: int = 500,
-        starts: int | None = None,
-        swarm: int | None = None,
+        evaluations: float = 500,
+        starts: float | None = None,
+        swarm: float | None = None,
         tolerance: float = 1e-6,
         full: bool = False,
         step_mm: float | None = None,
         reserve: float | None = None,
         robust: bool = False,
-        draws: int = 200,
+        draws: float = 200,
+        journal: str | os.PathLike[str] | None = None,
+        progress: Callable[[Progress], object] | None = None,
     ) -> Optimum:
-        """Search for a better design as the table ``[optimize]`` of the file says; nothing is written. ``evaluations``: most
+        """Search for a better design as the table ``[optimize]`` of the file says; no design is written. ``evaluations``: most
         of each climb; ``starts``: number of climbs, left open 8 to 32; ``swarm``: evaluations of a particle swarm first;
         ``step_mm``: step in which lengths can be made, mm, 0 for none, left open that of the file; ``reserve``: what every limit
         keeps of its margin, left open that of the file; ``robust``: margins within ``[tolerances]`` at every corner and in
         ``draws`` seeded draws, and a design that holds them at every corner.
 
-        Raises ``ValueError`` where the design has no such table.
+        ``journal``: a file (CSV) that every evaluation is appended to at once, and whose earlier ones of the same problem are not computed
+        again: the same call goes on where a search was stopped, and ends where an uninterrupted one ends.
+
+        ``progress`` is called, in this thread, with the :class:`Progress` so far, some times a second and at the end. Where it returns
+        ``False`` the search stops, and the answer is the best so far, ``status`` ``interrupted``. Ctrl-C raises :class:`Interrupted`, a
+        ``KeyboardInterrupt`` that has the same answer as ``found``; before the start is known, a bare one.
+
+        Raises ``ValueError`` where the design has no such table, and for a file that is no journal.
         """
-        found = self._search((), 8, evaluations, starts, swarm, tolerance, full, step_mm, reserve, robust, draws)
-        return optimum_of(*found)
+        found = self._search(
+            "optimize", (), 8, evaluations, starts, swarm, tolerance, full, step_mm, reserve, robust, draws, journal, progress
+        )
+        optimum = optimum_of(*found[:4])
+        if found[4]:
+            raise Interrupted(optimum)
+        return optimum
 
     def pareto(
         self,
         objectives: Sequence[str],
         *,
-        points: int = 8,
-        evaluations: int = 500,
-        starts: int | None = None,
-        swarm: int | None = None,
+        points: float = 8,
+        evaluations: float = 500,
+        starts: float | None = None,
+        swarm: float | None = None,
         tolerance: float = 1e-6,
         full: bool = False,
         step_mm: float | None = None,
         reserve: float | None = None,
+        journal: str | os.PathLike[str] | None = None,
+        progress: Callable[[Progress], object] | None = None,
     ) -> Front:
         """The front between two or three objectives, such as ``["slip-margin", "torque-capacity"]``: designs of which none is
         better in all of them. ``points``: steps between any two of its ends; the other options are those of :meth:`optimize`,
-        whose answer comes along.
+        whose answer comes along. What is stopped before the front is whole has no points, but the optimum so far.
 
-        Raises ``ValueError`` for other objectives than those of ``[optimize]``, and where the design has no such table.
+        Raises ``ValueError`` for other objectives than those of ``[optimize]``, and where the design has no such table;
+        :class:`Interrupted` as there.
         """
         aims = [objectives] if isinstance(objectives, str) else list(objectives)
         if not 2 <= len(set(aims)) == len(aims) <= 3:
             raise ValueError(f"objectives {aims}: allowed: two or three different ones")
-        if not 2 <= points <= 64:
-            raise ValueError(f"points {points}: allowed: 2 to 64")
-        found = self._search(aims, points, evaluations, starts, swarm, tolerance, full, step_mm, reserve, False, 200)
-        return front_of(optimum_of(*found), aims)
+        steps = whole("points", points, 2, 64)
+        found = self._search(
+            "pareto", aims, steps, evaluations, starts, swarm, tolerance, full, step_mm, reserve, False, 200, journal, progress
+        )
+        front = front_of(optimum_of(*found[:4]), aims)
+        if found[4]:
+            raise Interrupted(front)
+        return front
 
     def _search(
         self,
+        method: str,
         aims: Sequence[str],
         points: int,
-        evaluations: int,
-        starts: int | None,
-        swarm: int | None,
+        evaluations: float,
+        starts: float | None,
+        swarm: float | None,
         tolerance: float,
         full: bool,
         step_mm: float | None,
         reserve: float | None,
         robust: bool,
-        draws: int,
-    ) -> tuple[str, str, Design, Design | None]:
-        if evaluations < 1 or (starts is not None and starts < 1):
-            raise ValueError("evaluations and starts: allowed: 1 or more")
-        if swarm is not None and swarm < 80:
-            raise ValueError(f"swarm {swarm}: allowed: 80 or more")
+        draws: float,
+        journal: str | os.PathLike[str] | None,
+        progress: Callable[[Progress], object] | None,
+    ) -> tuple[str, str, Design, Design | None, bool]:
+        evaluations, starts = whole("evaluations", evaluations, 1), whole_or_none("starts", starts, 1)
+        swarm, draws = whole_or_none("swarm", swarm, 80), whole("draws", draws, 10)
         if not 1e-13 <= tolerance <= 1e-3:
             raise ValueError(f"tolerance {tolerance}: allowed: 1e-13 to 1e-3; 1e-6 serves well")
-        if draws < 10:
-            raise ValueError(f"draws {draws}: allowed: 10 or more")
         for name, value in ("step_mm", step_mm), ("reserve", reserve):
             if value is not None and not 0 <= value <= 1:
                 raise ValueError(f"{name} {value}: allowed: 0 to 1")
-        common, body, design, other = self._core.optimize(
-            evaluations, starts, swarm, tolerance, full, step_mm, reserve, aims, points, robust, draws
+
+        def go_on(text: str) -> bool:
+            assert progress is not None
+            answer = progress(Progress(**json.loads(text)))
+            # A False of numpy is one, too.
+            return answer is None or type(answer).__name__ not in ("bool", "bool_") or bool(answer)
+
+        options = {
+            "points": (points, 8),
+            "evaluations": (evaluations, 500),
+            "starts": (starts, None),
+            "swarm": (swarm, None),
+            "tolerance": (tolerance, 1e-6),
+            "full": (full, False),
+            "step_mm": (step_mm, None),
+            "reserve": (reserve, None),
+            "robust": (robust, False),
+            "draws": (draws, 200),
+            "journal": (None if journal is None else os.fspath(journal), None),
+        }
+        by = called(f"design.{method}", *([list(aims)] if aims else []), **options)
+        common, body, design, other, said, interrupted = _core.optimize(
+            self._core,
+            evaluations,
+            starts,
+            swarm,
+            tolerance,
+            full,
+            step_mm,
+            reserve,
+            aims,
+            points,
+            robust,
+            draws,
+            journal,
+            by,
+            None if progress is None else go_on,
         )
-        return common, body, Design(design), None if other is None else Design(other)
+        for line in said:
+            warnings.warn(line, stacklevel=3)
+        return common, body, Design(design), None if other is None else Design(other), interrupted
+
+    def resonance(
+        self,
+        scenario: str | None = None,
+        *,
+        frequency_hz: float | tuple[float, float] | None = None,
+        amplitude_nm: float | tuple[float, float] | None = None,
+        points: float | tuple[float, float] | None = None,
+        tolerance: float = 1e-6,
+    ) -> Resonance:
+        """Motions that repeat with a torsional excitation, their start forgotten: the one of ``scenario`` (left out: the only one of
+        the kind), or a map over frequency (Hz) and amplitude (N m): from and to, or one number. ``points``: how many of each, ends
+        included, one number for both; left out 50. ``tolerance``: error allowed of every figure relative to its natural size.
+
+        Raises ``KeyError`` where there is no such scenario, ``ValueError`` where it is no torsional excitation or a drivetrain takes part,
+        :class:`NoClutch`; Ctrl-C raises :class:`Interrupted` with the amplitudes that were done.
+        """
+        wanted: tuple[int, int] | None = None
+        if points is not None:
+            both = listed("points", points)
+            if len(both) not in (1, 2):
+                raise ValueError(f"points {points!r}: allowed: one number, or one for frequencies and one for amplitudes")
+            wanted = whole("points", both[0], 1, 1000), whole("points", both[-1], 1, 1000)
+        if not 1e-9 <= tolerance <= 1e-3:
+            raise ValueError(f"tolerance {tolerance}: allowed: 1e-9 to 1e-3")
+        frequencies, amplitudes = span("frequency_hz", frequency_hz), span("amplitude_nm", amplitude_nm)
+        common, body, interrupted = _core.resonance(self._core, scenario, frequencies, amplitudes, wanted, tolerance)
+        found = plain_of(Resonance, (common, body))
+        if interrupted:
+            raise Interrupted(found)
+        return found
+
+    def sheet(self) -> Page:
+        """The design sheet, HTML: verdict, dimensioned drawing, margins, scenes, all inputs; prints on A4.
+
+        Raises :class:`NoClutch` where no clutch comes about.
+        """
+        return Page(f"Design sheet of {self.name}", _core.sheet(self._core, called("design.sheet")))
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        format: str | None = None,
+        part: str | None = None,
+        table: str | None = None,
+        deviation_mm: float | None = None,
+        fmi: int | None = None,
+        library: str | os.PathLike[str] | None = None,
+        clutch_alone: bool = False,
+        variant: str | None = None,
+        mesh_mm: float | None = None,
+        torque_nm: float | None = None,
+        increments: float | None = None,
+        friction: float | None = None,
+        force: bool = False,
+    ) -> Path:
+        """Write the design for another program; the path of the file. ``path``: a file, or a folder, in which the file is named after the
+        design's. ``format``: ``dxf``, ``step``, ``svg``, ``csv``, ``calculix``, ``fmu``, left out by the ending of the file (``.inp``:
+        calculix). A file that is there is replaced only with ``force``.
+
+        dxf, step, svg, csv: ``part`` (``sprag``, left out; ``inner``, ``outer``, ``clutch``). csv: ``table`` (``arcs``, left out;
+        ``points``, with ``deviation_mm``: the most that a chord leaves its arc, mm). calculix: ``variant``, ``mesh_mm``, ``torque_nm``,
+        ``increments``, ``friction`` as the command has them. fmu: ``library``, which the wheel does not have, ``fmi`` (2, left out; 3),
+        ``clutch_alone`` leaves ``[[drivetrain]]`` out.
+
+        Raises ``ValueError`` for an option that means nothing to the format, ``FileExistsError``, :class:`NoClutch` where the part cannot be
+        drawn.
+        """
+        options = {
+            "part": part,
+            "table": table,
+            "deviation_mm": deviation_mm,
+            "fmi": fmi,
+            "library": library,
+            "clutch_alone": clutch_alone or None,
+            "variant": variant,
+            "mesh_mm": mesh_mm,
+            "torque_nm": torque_nm,
+            "increments": increments,
+            "friction": friction,
+        }
+        return export(self._core, path, format, {name: value for name, value in options.items() if value is not None}, force=force)
 
     def life(self) -> Life:
         """What the life of loads in the table ``[life]`` of the file does to the clutch.
@@ -309,7 +443,7 @@ class Design:
         return plain_of(Life, self._core.life())
 
     def overrun(
-        self, speeds_rpm: Iterable[float] = (), temperatures_c: Iterable[float] = (), *, race: str = "inner"
+        self, speeds_rpm: float | Iterable[float] = (), temperatures_c: float | Iterable[float] = (), *, race: str = "inner"
     ) -> FilmOverrun:
         """Overrun on the film that ``[lubrication]`` names, at each speed of the race that runs (rpm; left out: 50, 100, 200,
         500 ... up to lift-off and 50 m/s) and each temperature of the oil (C; left out: that of the file). ``race``: the one
@@ -319,16 +453,16 @@ class Design:
         """
         if race not in ("inner", "outer"):
             raise ValueError(f"race {race!r}: allowed: inner, outer")
-        temperatures = [float(t) for t in temperatures_c]
+        temperatures = listed("temperatures_c", temperatures_c)
         for celsius in temperatures:
             if not -60.0 <= celsius <= 250.0:
                 raise ValueError(f"temperatures_c {celsius}: allowed: -60 to 250")
-        speeds = _positive("speeds_rpm", speeds_rpm)
+        speeds = positive("speeds_rpm", speeds_rpm)
         return plain_of(FilmOverrun, self._core.overrun(race == "outer", speeds, temperatures))
 
     def reengage(
         self,
-        paths_mm: Iterable[float] | None = None,
+        paths_mm: float | Iterable[float] | None = None,
         *,
         torque_nm: float | None = None,
         inertia_inner_kg_m2: float | None = None,
@@ -336,8 +470,8 @@ class Design:
         outer_held: bool | None = None,
         friction: float | None = None,
         speed_rpm: float | None = None,
-        over_friction: Iterable[float] = (),
-        over_inertia_kg_m2: Iterable[float] = (),
+        over_friction: float | Iterable[float] = (),
+        over_inertia_kg_m2: float | Iterable[float] = (),
     ) -> Reengagement:
         """Slip under load and the blow when the clutch grips again, for each path of slip at the inner track (mm, rising; left
         out: 0.1 to 30). ``torque_nm``: carried when the slip begins, left out the nominal torque of ``[limits]``; inertias:
@@ -356,12 +490,12 @@ class Design:
         }
         for name, value in given.items():
             if value is not None:
-                _positive(name, [value])
+                positive(name, [value])
         if speed_rpm is not None and not math.isfinite(speed_rpm):
             raise ValueError(f"speed_rpm {speed_rpm}: allowed: a finite number")
-        paths = None if paths_mm is None else _positive("paths_mm", paths_mm)
+        paths = None if paths_mm is None else positive("paths_mm", paths_mm)
         inertias = (inertia_inner_kg_m2, inertia_outer_kg_m2)
-        over = (_positive("over_friction", over_friction), _positive("over_inertia_kg_m2", over_inertia_kg_m2))
+        over = (positive("over_friction", over_friction), positive("over_inertia_kg_m2", over_inertia_kg_m2))
         found = self._core.reengage(torque_nm, inertias, outer_held, friction, speed_rpm, paths, *over)
         return plain_of(Reengagement, found)
 
@@ -371,29 +505,28 @@ class Design:
 
         Raises ``ValueError`` where the design has no such table or there is no torque, :class:`NoClutch`.
         """
-        torque = None if torque_nm is None else _positive("torque_nm", [torque_nm])[0]
+        torque = None if torque_nm is None else positive("torque_nm", [torque_nm])[0]
         return plain_of(Sharing, self._core.sharing(torque))
 
-    def sharing_in_scene(self, scenario: str, *, most_steps: int | None = None) -> SharingScene:
+    def sharing_in_scene(self, scenario: str, *, most_steps: float | None = None) -> SharingScene:
         """A scenario with its sprags one by one, as ``[sharing]`` has them: who catches when, who slips, what each carries over time, what
         the bearings of the races hold. ``most_steps``: as in :meth:`simulate`.
 
         Raises ``KeyError`` where there is no such scenario, ``ValueError`` where the design has no such table or the scenario cannot be run so.
         """
-        if most_steps is not None and most_steps < 1:
-            raise ValueError(f"most_steps {most_steps}: allowed: 1 or more")
-        return plain_of(SharingScene, self._core.sharing_in_scene(scenario, most_steps))
+        steps = whole_or_none("most_steps", most_steps, 1)
+        return plain_of(SharingScene, self._core.sharing_in_scene(scenario, steps))
 
     def feed(
         self,
         stroke_deg: float,
-        frequencies_hz: Iterable[float] | None = None,
+        frequencies_hz: float | Iterable[float] | None = None,
         *,
         brake_nm: float | None = None,
         inertia_kg_m2: float | None = None,
         driver: str = "outer",
         allowed_deg: float = 0.1,
-        springs: Iterable[float] = (),
+        springs: float | Iterable[float] = (),
     ) -> Feed:
         """What each stroke of an indexing drive feeds, at each frequency (Hz, rising; left out: 1 to 50). The race ``driver``,
         ``outer`` or ``inner``, turns by ``stroke_deg`` and back, the other is fed against ``brake_nm`` (left out: the nominal
@@ -407,9 +540,9 @@ class Design:
         given = {"stroke_deg": stroke_deg, "brake_nm": brake_nm, "inertia_kg_m2": inertia_kg_m2, "allowed_deg": allowed_deg}
         for name, value in given.items():
             if value is not None:
-                _positive(name, [value])
-        frequencies = None if frequencies_hz is None else _positive("frequencies_hz", frequencies_hz)
-        core = self._core.feed(stroke_deg, frequencies, brake_nm, inertia_kg_m2, driver == "inner", allowed_deg, _positive("springs", springs))
+                positive(name, [value])
+        frequencies = None if frequencies_hz is None else positive("frequencies_hz", frequencies_hz)
+        core = self._core.feed(stroke_deg, frequencies, brake_nm, inertia_kg_m2, driver == "inner", allowed_deg, positive("springs", springs))
         return plain_of(Feed, core)
 
     def problem(self, *, full: bool = False) -> Problem:
@@ -456,92 +589,10 @@ class Design:
         return Design.parse, (self.text, str(self.folder), self._core.file)
 
 
-class Problem:
-    """The variables of a design's ``[optimize]`` and the margins at their values. Safe to use from several threads."""
-
-    __slots__ = ("_core", "_names", "aim", "design", "full", "variables")
-
-    def __init__(self, design: Design, *, full: bool = False) -> None:
-        self._core = design._core.problem(full)
-        self._names: tuple[list[str], list[str]] | None = None
-        about = json.loads(self._core.about)
-        self.design = design
-        """The design."""
-        self.full = full
-        self.aim: str = about["aim"]
-        """What is made better."""
-        self.variables: tuple[Variable, ...] = tuple(_object(Variable, v) for v in about["variables"])
-        """The variables in the order of the vector."""
-
-    def __repr__(self) -> str:
-        names = ", ".join(v.name for v in self.variables)
-        return f"<Problem of {self.design.name!r}: {self.aim}; {names}>"
-
-    @property
-    def bounds(self) -> list[tuple[float, float]]:
-        """Least and greatest value of each variable, as scipy takes them."""
-        return [(v.min, v.max) for v in self.variables]
-
-    @property
-    def start(self) -> list[float]:
-        """Values to start from."""
-        return [v.start for v in self.variables]
-
-    def _rows(self) -> tuple[list[str], list[str]]:
-        if self._names is None:
-            self._names = self._core.names(self.start)
-        return self._names
-
-    @property
-    def objectives(self) -> list[str]:
-        """Codes of the objectives."""
-        return self._rows()[0]
-
-    @property
-    def limits(self) -> list[str]:
-        """Codes of the limits."""
-        return self._rows()[1]
-
-    def evaluate(self, x: Iterable[float]) -> Evaluation:
-        """Margins at ``x``. What is no clutch has ``refused``.
-
-        Raises ``ValueError`` for another number of values, and for one out of its bounds.
-        """
-        values = [float(v) for v in x]
-        objectives, limits, least, violation, feasible, refused = self._core.evaluate(values)
-        return Evaluation(tuple(values), tuple(objectives), tuple(limits), least, violation, feasible, refused)
-
-    def evaluate_all(self, points: Iterable[Iterable[float]]) -> list[Evaluation]:
-        """Margins at many points, rows of an array say, side by side on all cores; in their order. As :meth:`evaluate`."""
-        rows = [[float(v) for v in x] for x in points]
-        return [
-            Evaluation(tuple(x), tuple(objectives), tuple(limits), least, violation, feasible, refused)
-            for x, (objectives, limits, least, violation, feasible, refused) in zip(
-                rows, self._core.evaluate_all(rows), strict=True
-            )
-        ]
-
-    def sample(self, count: int, *, seed: int = 1, first: int = 0) -> Numbers:
-        """``count`` scrambled Sobol points of the box, a row each, from number ``first`` on: those of the command ``sample``."""
-        import numpy as np
-
-        for name, value in ("count", count), ("seed", seed), ("first", first):
-            if value < 0:
-                raise ValueError(f"{name} {value}: allowed: 0 or more")
-        return np.array(self._core.sample(count, seed, first), dtype=np.float64)
-
-    def design_at(self, x: Iterable[float]) -> Design:
-        """The design with the values ``x``, and with the limits of ``[optimize]``, so that ``check`` holds it to what was
-        searched for."""
-        text = self._core.file_at([float(v) for v in x])
-        return Design.parse(text, self.design.folder, self.design._core.file)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _problem, (self.design, self.full)
-
-
-def _problem(design: Design, full: bool) -> Problem:
-    return Problem(design, full=full)
+def _name(path: str) -> str:
+    if not isinstance(path, str):
+        raise TypeError(f"{path!r}: a value of a design is named by text, such as 'r_i2_mm' or 'friction.static'")
+    return path
 
 
 def map_tables(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -57,3 +58,27 @@ class DesignError(ValueError):
 
 class NoClutch(ValueError):
     """The design file is in order, but no clutch comes about: a sprag that does not reach both races, say."""
+
+
+class NotSized(NoClutch):
+    """No clutch of the family does what is asked: the message says which limit prevents it, and the nearest possible."""
+
+    def __init__(self, message: str, tried: str = "[]") -> None:
+        super().__init__(message, tried)
+        self.tried: tuple[dict[str, Any], ...] = tuple(json.loads(tried))
+        """Every race space that was tried, as the command prints them with ``--json``."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C has ended a search or a map, whose answer so far is :attr:`found`. Who does not catch it sees a ``KeyboardInterrupt``."""
+
+    def __init__(self, found: Any) -> None:
+        super().__init__("stopped; what was found until then is the attribute `found` of this exception")
+        self.found = found
+        """The answer of what was stopped: an ``Optimum``, a ``Front`` or a ``Resonance``."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Interrupted, (self.found,)
