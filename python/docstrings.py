@@ -41,7 +41,7 @@ STRUCTS = {
     "CodeMargin": ["answer/search/realised.rs CodeMargin"],
     "Steps": ["answer/search/steps.rs Steps"],
     "Optimum": ["answer/search/body.rs SearchBody"],
-    "Progress": ["answer/search/so_far.rs SoFar"],
+    "Progress": ["answer/search/so_far.rs SearchSoFar"],
     "Taken": ["answer/sizing.rs Taken"],
     "FirstDesign": ["answer/sizing.rs SizingBody"],
     "ComparedDesign": ["answer/comparison/body.rs ComparedDesign"],

@@ -19,7 +19,7 @@ use sprag_design::answer::simulation::{self, Integration, NoAnswer};
 use sprag_design::answer::stiffness::{self, NoStiffness};
 use sprag_design::answer::{Answer, Envelope, LeftOut};
 use sprag_design::clutch::LAWS;
-use sprag_design::design::did_you_mean;
+use sprag_design::design::nearest;
 use sprag_design::file::{EditError, NoSetting, setting_at};
 use sprag_design::report::{Drawing, SpragPose};
 use sprag_design::scenario::Settings;
@@ -92,13 +92,12 @@ impl Design {
         match setting_at(&self.design.source, path) {
             Ok(value) => Ok((Some(json(&value)?), String::new())),
             Err(why @ NoSetting::NotHeld { .. }) => Ok((None, why.to_string())),
-            Err(NoSetting::Edit(why)) => {
-                let near = match &why {
-                    EditError::UnknownName { name, known } => did_you_mean(name, known),
-                    _ => String::new(),
-                };
-                Err(PyKeyError::new_err(format!("{why}{near}")))
+            Err(NoSetting::Edit(EditError::UnknownName { name, known })) => {
+                let near = nearest(&name, &known).map(|near| format!("did you mean {near}? There"));
+                let there = near.as_deref().unwrap_or("there");
+                Err(PyKeyError::new_err(format!("no {name:?}; {there} are {}", known.join(", "))))
             }
+            Err(why) => Err(PyKeyError::new_err(why.to_string())),
         }
     }
 

@@ -6,7 +6,7 @@ use crate::pool::{interrupted, watched};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::json as object;
-use sprag_design::answer::search::{NEAREST, ROBUST, SearchAnswer, SearchSettings, SoFar};
+use sprag_design::answer::search::{NEAREST, ROBUST, SearchAnswer, SearchSettings, SearchSoFar};
 use sprag_design::cli::journal::JournalFile;
 use sprag_design::design::Objective;
 use sprag_design::journal::model;
@@ -18,10 +18,10 @@ use std::time::Instant;
 
 /// How far the search is, for the thread that waits and those that search.
 #[derive(Clone, Default)]
-struct Shared(Arc<Mutex<SoFar>>);
+struct Shared(Arc<Mutex<SearchSoFar>>);
 
 impl Shared {
-    fn now(&self) -> MutexGuard<'_, SoFar> {
+    fn now(&self) -> MutexGuard<'_, SearchSoFar> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -49,7 +49,7 @@ impl Record for Keeper {
 }
 
 /// What a search tells: how far it is, as JSON.
-fn told(so_far: &SoFar) -> PyResult<String> {
+fn told(so_far: &SearchSoFar) -> PyResult<String> {
     let last = so_far.last.as_ref();
     json(&object!({
         "part": so_far.part,
@@ -121,7 +121,7 @@ pub fn optimize(
         let found = searched.optimise_recorded(&ask, &mut keeper);
         (found, started.elapsed().as_secs_f64(), keeper.file.map_or_else(Vec::new, |file| said(&file)))
     };
-    let mut last = SoFar::default();
+    let mut last = SearchSoFar::default();
     let look = |py: Python<'_>| {
         let now = so_far.now().clone();
         let Some(progress) = progress.as_ref().filter(|_| now.evaluations > 0 && now != last) else {

@@ -12,8 +12,9 @@ import pytest
 
 import sprag_design as sd
 
-from .conftest import DESIGNS, MULTI_ARC, Command, figures
+from .conftest import DESIGNS, MULTI_ARC, Command, figures, python
 from .test_answers import mine
+from .test_processes import needs_fork
 
 UNWRITTEN = ("written", "unwritten")
 
@@ -115,6 +116,23 @@ def test_resonance_is_that_of_the_command(design: sd.Design, command: Command) -
         design.resonance()
     with pytest.raises(ValueError, match="no torsional excitation"):
         sd.size(bore_mm=40, torque_nm=100).design.resonance()
+
+
+@needs_fork
+def test_ctrl_c_leaves_the_amplitudes_that_are_done() -> None:
+    code = """
+import os, signal, sys, threading
+import sprag_design as sd
+design = sd.Design.load(sys.argv[1])
+threading.Timer(5.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    design.resonance("high-6", frequency_hz=(50, 150), amplitude_nm=(1, 20), points=(2, 1000))
+except sd.Interrupted as ended:
+    found = ended.found
+    print(len(found.states) == 2 * (1000 - found.amplitudes_left) > 0, "stopped" in found.verdict)
+"""
+    done = python(code, MULTI_ARC)
+    assert done.stdout.split() == ["True", "True"], done.stderr
 
 
 def test_the_sheet_is_that_of_the_command(design: sd.Design, command: Command, tmp_path: Path) -> None:

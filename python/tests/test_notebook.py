@@ -10,6 +10,8 @@ import pytest
 
 import sprag_design as sd
 
+from .test_processes import needs_fork
+
 
 def test_tables(design: sd.Design) -> None:
     pytest.importorskip("pandas")
@@ -74,6 +76,21 @@ def test_a_design_is_saved_once(design: sd.Design, tmp_path: Path) -> None:
     assert sd.Design.load(path) == design.with_(r_i2_mm=4.1)
     with pytest.raises(FileExistsError):
         design.save(path)
+
+
+@needs_fork
+def test_a_design_is_saved_over_another_by_force(design: sd.Design, tmp_path: Path) -> None:
+    path = tmp_path / "new.toml"
+    design.with_(r_i2_mm=4.1).save(path)
+    link = tmp_path / "link.toml"
+    link.symlink_to(path)
+    path.chmod(0o640)
+    design.save(link, force=True)
+    assert link.is_symlink() and sd.Design.load(path) == design and path.stat().st_mode & 0o777 == 0o640
+    with pytest.raises(OSError):
+        design.save(tmp_path, force=True)
+    design.save("/dev/null", force=True)
+    assert not Path("/dev/null").is_file() and sorted(p.name for p in tmp_path.iterdir()) == ["link.toml", "new.toml"]
 
 
 def test_an_answer_prints_in_a_line(design: sd.Design) -> None:

@@ -7,7 +7,7 @@ use super::origin::FileKind;
 use super::progress::ProgressLine;
 use super::{Context, Run};
 use crate::answer::search::{
-    Hints, NEAREST, ROBUST, SearchAnswer, SearchFile, SearchReport, SearchSettings, SoFar,
+    Hints, NEAREST, ROBUST, SearchAnswer, SearchFile, SearchReport, SearchSettings, SearchSoFar,
 };
 use crate::design::{Design, Objective};
 use crate::follow::News;
@@ -170,7 +170,7 @@ impl Run for OptimizeArgs {
         ));
         let progress = context.progress("search", "evaluations", None);
         settings.follow = progress.told_by(&settings.follow);
-        let mut keeper = Keeper { progress, file, so_far: SoFar::default() };
+        let mut keeper = Keeper { progress, file, so_far: SearchSoFar::default() };
         let started = Instant::now();
         let answer = design.optimise_recorded(&settings, &mut keeper);
         let run_time_s = started.elapsed().as_secs_f64();
@@ -287,7 +287,7 @@ fn beside(new: &Path, args: &OptimizeArgs) -> Vec<PathBuf> {
 struct Keeper {
     progress: Arc<ProgressLine>,
     file: JournalFile,
-    so_far: SoFar,
+    so_far: SearchSoFar,
 }
 
 impl Record for Keeper {

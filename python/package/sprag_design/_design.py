@@ -238,7 +238,7 @@ class Design:
         ``journal``: a file (CSV) that every evaluation is appended to at once, and whose earlier ones of the same problem are not computed
         again: the same call goes on where a search was stopped, and ends where an uninterrupted one ends.
 
-        ``progress`` is called, in this thread, with the :class:`Progress` so far, some times a second and at the end. Where it returns
+        ``progress`` is called, in this thread, with the :class:`Progress` so far, up to 50 times a second and at the end. Where it returns
         ``False`` the search stops, and the answer is the best so far, ``status`` ``interrupted``. Ctrl-C raises :class:`Interrupted`, a
         ``KeyboardInterrupt`` that has the same answer as ``found``; before the start is known, a bare one.
 

@@ -3,42 +3,44 @@
 from __future__ import annotations
 
 import os
-import tempfile
+import uuid
 from pathlib import Path
 
 
 def write(path: str | os.PathLike[str], content: str | bytes, *, force: bool) -> Path:
-    """Write a file. One that is there is replaced only with ``force``; where the disk is full nothing is left.
+    """Write a file. One that is there is replaced only with ``force``, at once and whole; where the disk is full nothing is left.
 
     Raises ``FileExistsError``.
     """
     target = Path(path)
     data = content.encode("utf-8") if isinstance(content, str) else content
     if not force:
-        with open(target, "xb") as file:
-            _fill(file.fileno(), data, target)
+        _fill(target, data)
         return target
-    handle, name = tempfile.mkstemp(prefix=".sprag-design-", suffix=".tmp", dir=target.parent)
-    with os.fdopen(handle, "wb") as file:
-        _fill(file.fileno(), data, Path(name))
+    # Behind a link the linked file is replaced, not the link.
+    real = Path(os.path.realpath(target))
+    if real.exists() and not real.is_file():
+        # A pipe or a device is written to; a folder says that it is one.
+        real.write_bytes(data)
+        return target
+    beside = real.with_name(f".sprag-design-{uuid.uuid4().hex}.tmp")
+    _fill(beside, data)
     try:
-        # As a new file would be; mkstemp has made one that nobody else may read.
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(name, target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~mask)
-        os.replace(name, target)
+        if real.exists():
+            os.chmod(beside, real.stat().st_mode & 0o7777)
+        os.replace(beside, real)
     except BaseException:
-        os.unlink(name)
+        os.unlink(beside)
         raise
     return target
 
 
-def _fill(file: int, data: bytes, path: Path) -> None:
-    """All of ``data``, or no file."""
-    try:
-        rest = memoryview(data)
-        while rest:
-            rest = rest[os.write(file, rest) :]
-    except BaseException:
-        os.unlink(path)
-        raise
+def _fill(path: Path, data: bytes) -> None:
+    """A new file with all of ``data``, or none."""
+    with open(path, "xb") as file:
+        try:
+            file.write(data)
+            file.flush()
+        except BaseException:
+            os.unlink(path)
+            raise

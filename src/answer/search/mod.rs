@@ -22,7 +22,7 @@ pub use parts::StoryPart;
 pub use realised::{CodeMargin, Flanked, FlanksBody, SearchedOn};
 pub use relief::{AloneBody, FreedBody, LoosenedBody, ReliefBody};
 pub use report::{SearchReport, SearchReportBody};
-pub use so_far::SoFar;
+pub use so_far::SearchSoFar;
 pub use steps::{Bound, Steps};
 pub use story::Story;
 pub use words::Hints;

@@ -8,7 +8,7 @@ const NONE_VIOLATED: f64 = 1e-8;
 
 /// How far a search is: kept by whoever follows it, from its news and its steps.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct SoFar {
+pub struct SearchSoFar {
     /// The part of the search that goes on.
     pub part: String,
     /// Evaluations of the clutch, of all parts.
@@ -19,7 +19,7 @@ pub struct SoFar {
     pub last: Option<Iteration>,
 }
 
-impl SoFar {
+impl SearchSoFar {
     /// Something begins or is done.
     pub fn hear(&mut self, news: News<'_>) {
         match news {
