@@ -37,6 +37,9 @@ def toml(value: Any) -> str:
 
 def listed(name: str, values: Any) -> list[float]:
     """Numbers in a row: those of a list or of an array with one axis, or one that stands alone."""
+    if isinstance(values, (list, tuple)) and all(type(value) is float for value in values):
+        # What optimisers ask a thousand times.
+        return list(values)
     axes = getattr(values, "ndim", None)
     if axes == 0 or isinstance(values, numbers.Real):
         return [float(values)]
@@ -44,9 +47,9 @@ def listed(name: str, values: Any) -> list[float]:
         raise ValueError(f"{name}: an array of shape {tuple(values.shape)}: allowed: a number, or numbers in a row (one axis)")
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
         raise TypeError(f"{name} {values!r}: allowed: a number, or numbers in a row")
-    row = list(values)
+    row = values.tolist() if axes == 1 and hasattr(values, "tolist") else list(values)
     for value in row:
-        if not isinstance(value, numbers.Real) and getattr(value, "ndim", None) != 0:
+        if type(value) is not float and not isinstance(value, numbers.Real) and getattr(value, "ndim", None) != 0:
             raise TypeError(f"{name}: {value!r}: allowed: a number, or numbers in a row")
     return [float(value) for value in row]
 
