@@ -142,7 +142,7 @@ pub fn optimize(
             Ok((common, json(&found.body)?, best, robust, said, interrupted))
         }
         (Err(NoSearch::Stopped), _) => Err(stopped()),
-        (Err(why @ NoSearch::Start(_)), _) => Err(errors::no_clutch(py, &why)),
+        (Err(why @ (NoSearch::Start(_) | NoSearch::Outside { .. })), _) => Err(errors::no_clutch(py, &why)),
         (Err(why), _) => Err(refused(why)),
     }
 }

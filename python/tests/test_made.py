@@ -199,3 +199,8 @@ def test_an_export_goes_into_a_folder_and_over_nothing(design: sd.Design, tmp_pa
     with pytest.raises(OSError):
         starter.export(tmp_path / "nowhere" / "a.dxf")
     assert [p.name for p in tmp_path.iterdir()] == ["starter-clutch.dxf"]
+
+
+def test_tracks_that_are_there_are_kept() -> None:
+    found = sd.new("helicopter", bore_mm=18, torque_nm=130, inner_track_mm=28, outer_track_mm=44.7)
+    assert (found.design["races.inner_radius_mm"], found.design["races.outer_radius_mm"]) == (14.0, 22.35)

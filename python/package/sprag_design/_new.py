@@ -22,6 +22,8 @@ def new(
     torque_nm: float | None = None,
     peak_nm: float | None = None,
     safety: float | None = None,
+    inner_track_mm: float | None = None,
+    outer_track_mm: float | None = None,
     outside_mm: float | None = None,
     width_mm: float | None = None,
     inner_rpm: float | None = None,
@@ -37,8 +39,8 @@ def new(
     """A first design for a purpose (:func:`purposes`), as the command ``new`` writes it: of all race spaces tried the one of the least volume.
 
     ``bore_mm``: bore of the inner race, diameter; ``torque_nm``: nominal torque, carried day by day, and ``peak_nm``, at the worst: one of
-    them or both; ``safety``: peak over nominal torque, where only one of them is named; ``outside_mm``, ``width_mm``: largest outer diameter
-    and width of the races; ``inner_rpm``, ``outer_rpm``: speeds of the races in overrun, in one sense; ``keep_contact_rpm``: speed of the outer
+    them or both; ``safety``: peak over nominal torque, where only one of them is named; ``inner_track_mm``, ``outer_track_mm``:
+    diameters of tracks that are there already; ``outside_mm``, ``width_mm``: largest outer diameter and width of the races; ``inner_rpm``, ``outer_rpm``: speeds of the races in overrun, in one sense; ``keep_contact_rpm``: speed of the outer
     race up to which the sprags keep contact in overrun, 0: not asked; ``lift_off_rpm``: speed of the outer race by which they must be off the
     inner one (of the inner race, off the outer one, in a cage that it drives, where the outer race stands), 0: they stay on; ``swing_nm``,
     ``swing_hz``: by how much and how often the torque swings; ``friction``: static friction; ``engagements``: in its life, at nominal torque;
@@ -51,6 +53,8 @@ def new(
         "torque_nm": torque_nm,
         "peak_nm": peak_nm,
         "safety": safety,
+        "inner_track_mm": inner_track_mm,
+        "outer_track_mm": outer_track_mm,
         "outside_mm": outside_mm,
         "width_mm": width_mm,
         "inner_rpm": inner_rpm,
@@ -71,6 +75,8 @@ def size(
     torque_nm: float | None = None,
     peak_nm: float | None = None,
     safety: float | None = None,
+    inner_track_mm: float | None = None,
+    outer_track_mm: float | None = None,
     outside_mm: float | None = None,
     width_mm: float | None = None,
     inner_rpm: float | None = None,
@@ -86,6 +92,8 @@ def size(
         "torque_nm": torque_nm,
         "peak_nm": peak_nm,
         "safety": safety,
+        "inner_track_mm": inner_track_mm,
+        "outer_track_mm": outer_track_mm,
         "outside_mm": outside_mm,
         "width_mm": width_mm,
         "inner_rpm": inner_rpm,
@@ -97,7 +105,16 @@ def size(
     return _first(None, numbers, material)
 
 
-_KEYS = {"bore_mm": "bore", "torque_nm": "torque", "peak_nm": "peak", "outside_mm": "outside", "width_mm": "width", "swing_nm": "swing"}
+_KEYS = {
+    "bore_mm": "bore",
+    "torque_nm": "torque",
+    "peak_nm": "peak",
+    "inner_track_mm": "inner-track",
+    "outer_track_mm": "outer-track",
+    "outside_mm": "outside",
+    "width_mm": "width",
+    "swing_nm": "swing",
+}
 """Arguments that say a unit which their option leaves out."""
 
 
