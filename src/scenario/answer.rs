@@ -3,7 +3,7 @@
 use super::demand::RollingDemand;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
-use super::simulate::SLIPPED_M;
+use super::verdict::{SLIPPED_M, engaging_m};
 use crate::dynamics::{
     EnergyBalance, Engaged, FastMotion, Hold, Jump, Mode, Neglected, Overrun, Peaks, Rubbed, Sample,
     SlipRecord, SlipWork, Stop, TrainRun,
@@ -135,7 +135,7 @@ pub struct Simulation {
 impl Simulation {
     /// Path that A slipped towards engaging, m: under a load that friction does not hold.
     pub fn slipped_engaging_m(&self) -> f64 {
-        0.5 * (self.inner.distance_m - self.inner.net_m)
+        engaging_m(self.inner.distance_m, self.inner.net_m)
     }
 
     /// Whether that is slip.

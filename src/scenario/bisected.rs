@@ -5,7 +5,8 @@ use super::answer::Verdict;
 use super::demand::{Fineness, STEPS_PER_PERIOD_OF_DEMAND, run_settings, unaudited};
 use super::figures::ErrorEstimate;
 use super::prepare::Prepared;
-use super::simulate::{SLIPPED_M, Settings, verdict};
+use super::simulate::{Settings, verdict};
+use super::verdict::SLIPPED_M;
 #[cfg(doc)]
 use crate::dynamics::Model;
 use crate::dynamics::{Stop, run_while_it_sticks};

@@ -18,6 +18,7 @@ mod roll_over;
 mod simulate;
 mod sliding;
 mod train;
+mod verdict;
 
 pub use crate::dynamics::RollingTrack;
 pub use answer::{GaveUp, Simulation, Verdict};
@@ -36,3 +37,4 @@ pub use resonance::{ResonanceCell, resonance};
 pub use roll_over::{Beyond, Fate, beyond};
 pub use simulate::{Settings, TOLERANCES, Terms, simulate, simulate_prepared};
 pub use sliding::{Lubricated, Sliding, SqueezedOut, sliding, squeezed_out, touch};
+pub use verdict::{SLIPPED_M, Went, engaging_m};

@@ -6,6 +6,7 @@ use super::equilibrium::steady;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
 use super::prepare::{NoScenario, Prepared, prepare};
+use super::verdict::Went;
 use crate::clutch::Scenario;
 use crate::dynamics::{Grip, History, Place, Run, SlipRecord, Stop, Train, run};
 use crate::follow::Follow;
@@ -407,34 +408,14 @@ pub(super) fn hertz_at(prepared: &Prepared, n_bi: f64) -> f64 {
     prepared.model.curve.hertz_inner_pa(n_bi)
 }
 
-/// Net slip beyond which a scene counts as slipped, m (INTERFACE: 1 um).
-pub(super) const SLIPPED_M: f64 = 1e-6;
-/// Stretch without contact beyond which a scene counts as disengaged, s (INTERFACE: 1 ms).
-const LOST_S: f64 = 1e-3;
-
-/// `None` where the run ended before it could be told. A sprag that touches without a force is open.
+/// The verdict of one run; `None` where it ended before that could be told.
 pub(super) fn verdict(prepared: &Prepared, run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
-    if run.stop == Stop::FellAway || run.longest_open_s > LOST_S {
-        return Some(Verdict::Disengages);
-    }
-    if run.stop == Stop::CurveEnd {
-        return Some(Verdict::Overloaded);
-    }
-    if run.stop != Stop::Finished {
-        return None;
-    }
-    let net = slips(run)[0].net_m + run.carried_m;
-    Some(if run.mode.place == Place::Carried {
-        Verdict::SlipsOverrunning
-    } else if prepared.model.point(run.mode.place, run.state[0]).n_bi <= 0.0 {
-        Verdict::Disengages
-    } else if (net.abs() - SLIPPED_M).abs() <= error.net_slip_m {
-        Verdict::AtThreshold
-    } else if net > SLIPPED_M {
-        Verdict::SlipsOverrunning
-    } else if net < -SLIPPED_M {
-        Verdict::SlipsEngaging
-    } else {
-        Verdict::Sticks
-    })
+    let went = Went {
+        stop: run.stop,
+        longest_open_s: run.longest_open_s,
+        carried: run.mode.place == Place::Carried,
+        end_n: prepared.model.point(run.mode.place, run.state[0]).n_bi,
+        net_m: slips(run)[0].net_m + run.carried_m,
+    };
+    went.verdict(error.net_slip_m)
 }

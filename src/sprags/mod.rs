@@ -9,13 +9,15 @@
 //! under sprags unlike one another ([`Rings`]), without inertia. A cage that the inner race drives carries them where the axes meet and are
 //! held; each has its own way to the stop from where it touches both races.
 
+mod went;
+
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start, TrackWave};
 use crate::dynamics::{
     Axes, AxisBearing, Carried, ManyRun, ManyStart, OffCentre, Rings, RunSettings, SpragApproach, SpragGroup,
     StaysWith, Stop, run_many, settled_off_centre, settled_together,
 };
 use crate::friction::Stribeck;
-use crate::scenario::{NoScenario, Prepared, Settings, prepare, touch};
+use crate::scenario::{NoScenario, Prepared, Settings, Verdict, prepare, touch};
 use crate::sharing::{Asked, Idle, OneSprag, Unlike};
 use crate::wedge::{AxisTurns, NoCurve, OverEnd, SpragDeviation, WedgeCurve};
 use rayon::prelude::*;
@@ -83,6 +85,8 @@ pub struct EachSprag {
     pub counts: Vec<usize>,
     /// What became of them.
     pub run: ManyRun,
+    /// The verdict of each group; `None`: the run ended before it could be told.
+    pub verdicts: Vec<Option<Verdict>>,
     /// Mean normal force from which on a share counts, N.
     pub loaded_n: f64,
     /// Difference to a run of steps ten times as coarse in tolerance: of theta_bi at the end, rad, and of the largest N_bi, as a part
@@ -503,7 +507,9 @@ pub fn each_sprag(
         }
     }
     let fine = if whole(&coarse) { Some(go(&many, 0.1 * settings.tolerance, false)) } else { None };
-    let error = fine.as_ref().filter(|fine| whole(fine)).map(|fine| {
+    let fine_whole = fine.as_ref().filter(|fine| whole(fine));
+    let verdicts = went::verdicts(fine.as_ref().unwrap_or(&coarse), fine_whole.map(|_| &coarse));
+    let error = fine_whole.map(|fine| {
         let most = |run: &ManyRun| run.courses.iter().map(|c| c.normal_max_n).fold(0.0, f64::max);
         let (fine_n, coarse_n) = (most(fine), most(&coarse));
         let scale = if fine_n > 0.0 { fine_n } else { 1.0 };
@@ -554,6 +560,7 @@ pub fn each_sprag(
         group,
         counts,
         run,
+        verdicts,
         loaded_n,
         error,
         limits,

@@ -11,3 +11,4 @@ mod each_sprag;
 mod off_centre;
 mod sharing;
 mod turning_track;
+mod verdict;

@@ -2,8 +2,9 @@
 
 use super::SharingSceneAnswer;
 use crate::answer::Answer;
-use crate::dynamics::{ManySample, Place, SpragCourse};
+use crate::dynamics::{ManySample, SpragCourse};
 use crate::report::{Rows, Unit};
+use crate::scenario::Verdict;
 use crate::sharing::OneSprag;
 use serde::Serialize;
 
@@ -43,7 +44,7 @@ pub struct SharingSceneBody<'a> {
     pub given_up: Option<String>,
     /// Sprags that lost contact for good beyond the end of their curve.
     pub gone: usize,
-    /// Whether the scene came to its end and no sprag slipped or went over.
+    /// Whether the clutch holds to the end of the scene, or lets go where its torque turns round, and no sprag slips under load or goes over.
     pub held: bool,
     /// Every sample.
     pub history: Rows<&'a ManySample>,
@@ -175,8 +176,13 @@ impl SharingSceneAnswer<'_> {
                 (None, Some(c)) if c.catches_s.is_none() => "never catches",
                 (None, Some(c)) if c.gone_s.is_some() => "rolled over",
                 (None, Some(c)) if c.over_s.is_some() => "beyond its end",
-                (None, Some(c)) if c.slips.is_some() => "slips",
-                (None, Some(_)) if self.carried_at_end(*i) => "with the cage",
+                (None, Some(_)) if self.slips(*i) => "slips",
+                (None, Some(c)) if c.carried => "with the cage",
+                (None, Some(_)) => match self.found.group[*i].and_then(|g| self.found.verdicts[g]) {
+                    Some(Verdict::SlipsOverrunning) => "overruns",
+                    Some(Verdict::Disengages) => "loses contact",
+                    _ => "holds",
+                },
                 _ => "holds",
             })
             .json_in("azimuth_deg", Unit::Degree, |(_, s, _)| s.azimuth_rad)
@@ -192,12 +198,6 @@ impl SharingSceneAnswer<'_> {
             .json("contact_lost_s", |(_, _, c)| c.map(|c| c.open_s))
             .json("over_at_s", |(_, _, c)| c.and_then(|c| c.over_s))
             .json("gone_at_s", |(_, _, c)| c.and_then(|c| c.gone_s))
-    }
-
-    /// Whether sprag `i` ends with the cage that the inner race drives.
-    fn carried_at_end(&self, i: usize) -> bool {
-        let last = self.found.run.samples.last().zip(self.found.group[i]);
-        last.is_some_and(|(last, g)| last.motions[g].mode.place == Place::Carried)
     }
 
     /// One row a sample.

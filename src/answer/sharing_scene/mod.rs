@@ -105,9 +105,15 @@ impl SharingSceneAnswer<'_> {
         order
     }
 
-    /// The sprag that slips first under load, and when, s.
+    /// Whether sprag `i` slips under load once it has caught, by more than counts.
+    fn slips(&self, i: usize) -> bool {
+        self.found.group[i].is_some_and(|g| self.found.slips(g))
+    }
+
+    /// The sprag that does so first, and when, s.
     pub fn first_slip(&self) -> Option<(usize, f64)> {
-        let each = (0..self.found.sprags.len()).filter_map(|i| Some((i, self.course(i)?.slips?.t_s)));
+        let those = (0..self.found.sprags.len()).filter(|&i| self.slips(i));
+        let each = those.filter_map(|i| Some((i, self.course(i)?.slips?.t_s)));
         each.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 
@@ -124,9 +130,9 @@ impl SharingSceneAnswer<'_> {
         (0..self.found.sprags.len()).filter(|&i| self.course(i).is_some_and(|c| c.gone_s.is_some())).count()
     }
 
-    /// How many sprags slip under load after they have caught.
+    /// How many sprags do.
     pub fn slipping(&self) -> usize {
-        (0..self.found.sprags.len()).filter(|&i| self.course(i).is_some_and(|c| c.slips.is_some())).count()
+        (0..self.found.sprags.len()).filter(|&i| self.slips(i)).count()
     }
 
     /// Why the run did not come to its end, and what would let it; `None`: it did, or what happened is an answer.
@@ -191,7 +197,7 @@ impl Answer for SharingSceneAnswer<'_> {
     }
 
     fn held(&self) -> bool {
-        self.found.run.stop == Stop::Finished && self.first_slip().is_none() && self.over().is_empty()
+        self.design.scenario(&self.scene).is_some_and(|scenario| self.found.held(scenario))
     }
 
     fn verdict(&self) -> String {

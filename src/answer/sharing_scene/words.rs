@@ -7,6 +7,7 @@ use crate::answer::left_out::{LeftOut, left_out_of_driven_cage, one_by_one};
 use crate::clutch::Carrier;
 use crate::dynamics::{Axes, StaysWith, Stop};
 use crate::report::{Unit, significant};
+use crate::scenario::Verdict;
 
 impl SharingSceneAnswer<'_> {
     /// The answer in a sentence.
@@ -72,10 +73,42 @@ impl SharingSceneAnswer<'_> {
                 i + 1,
                 Unit::Millisecond.show(t_s, 4)
             ),
-            None => "; none slips once it has caught".to_owned(),
+            None if self.verdict_is(Verdict::Sticks) => "; none slips once it has caught".to_owned(),
+            None => "; under load none slips once it has caught".to_owned(),
         };
+        said += &self.lets_go_words();
         said += &self.over_words();
         said
+    }
+
+    fn verdict_is(&self, verdict: Verdict) -> bool {
+        self.found.least().is_none_or(|(_, of)| of == verdict)
+    }
+
+    /// What the clutch does where it does not hold, in words.
+    fn lets_go_words(&self) -> String {
+        let Some((g, verdict)) = self.found.least().filter(|_| self.found.run.stop == Stop::Finished) else {
+            return String::new();
+        };
+        let towards = |sense: &str| {
+            let least = self.found.group.iter().position(|of| *of == Some(g)).map_or(0, |i| i + 1);
+            let net = Unit::Micrometre.show(self.found.net_m(g).abs(), 3);
+            format!("no sprag holds, and sprag {least} slips least, by {net} towards {sense}")
+        };
+        let asked = self.design.scenario(&self.scene).is_some_and(|scene| scene.lets_go() == Some(true));
+        match verdict {
+            Verdict::SlipsOverrunning => format!(
+                "; the clutch overruns{}: {}",
+                if asked { ", as its torque has it" } else { "" },
+                towards("overrunning")
+            ),
+            Verdict::SlipsEngaging => format!("; {}", towards("engaging")),
+            Verdict::Disengages => "; every sprag loses contact".to_owned(),
+            Verdict::AtThreshold => {
+                "; whether it holds is nearer than two runs agree, a smaller tolerance decides".to_owned()
+            }
+            Verdict::Sticks | Verdict::Overloaded => String::new(),
+        }
     }
 
     /// What becomes of sprags that come to their end, in words.

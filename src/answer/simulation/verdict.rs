@@ -45,14 +45,9 @@ impl Ran {
         format!("{name}: {verdict}: {meaning}")
     }
 
-    /// Whether the clutch does what the scenario asks: hold, or let go where the torque turns round, without slip under load before. Where a
-    /// drivetrain makes it overrun nobody has said whether it is to.
+    /// Whether the clutch does what the scenario asks ([`Verdict::is_as_asked`]).
     pub fn held(&self) -> bool {
         match self.simulation().and_then(|s| Some((s, s.verdict?))) {
-            Some((_, Verdict::Sticks)) => true,
-            Some((s, Verdict::SlipsOverrunning)) => {
-                self.scenario.lets_go() == Some(true) && !s.slips_under_load()
-            }
             // Off the race in overrun: so it may be, but where contact is to be kept at that speed.
             Some((_, Verdict::Disengages)) => match self.scenario.kind {
                 ScenarioKind::Overrun { speed_rad_s, .. } => {
@@ -60,7 +55,8 @@ impl Ran {
                 }
                 _ => false,
             },
-            _ => false,
+            Some((s, verdict)) => verdict.is_as_asked(&self.scenario, s.slipped_engaging_m()),
+            None => false,
         }
     }
 

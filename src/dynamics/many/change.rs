@@ -1,7 +1,7 @@
 //! Sprags come to events at one time: places first, then the modes of all together.
 
 use super::choose::as_it_is;
-use super::found::FirstSlip;
+use super::found::{Apart, FirstSlip};
 use super::run::Going;
 use super::{EACH, HEAD, SpragMotion, state_of};
 use crate::dynamics::change::moving;
@@ -289,6 +289,7 @@ impl<const N: usize> Going<'_, N> {
         let course = &mut self.out.courses[g];
         if course.catches_s.is_none() && closed(&mode) && mode.inner != Grip::Slip(1.0) {
             course.catches_s = Some(self.t_s);
+            course.before_m = [course.net_m[0], course.path_m[0]];
         } else if course.catches_s.is_some()
             && course.slips.is_none()
             && closed(&before.mode)
@@ -299,11 +300,13 @@ impl<const N: usize> Going<'_, N> {
             let under_load = (a || b) && p.n_bi >= model.loaded_n;
             course.slips = under_load.then_some(FirstSlip { t_s: self.t_s, inner: a, normal_n: p.n_bi });
         }
-        match (mode.place == Place::Open || mode.is_off(), self.open_since[g]) {
-            (true, None) if course.catches_s.is_some() => self.open_since[g] = Some(self.t_s),
-            (false, Some(since)) => {
-                course.open_s += self.t_s - since;
-                self.open_since[g] = None;
+        match (mode.place == Place::Open || mode.is_off(), self.apart[g]) {
+            (true, None) => {
+                self.apart[g] = Some(Apart { since_s: self.t_s, caught: course.catches_s.is_some() });
+            }
+            (false, Some(apart)) => {
+                course.end_apart(apart, before.mode.place, self.t_s);
+                self.apart[g] = None;
             }
             _ => {}
         }

@@ -1,6 +1,7 @@
 //! What a run of many sprags comes to.
 
 use super::{BendingWork, SpragMotion};
+use crate::dynamics::model::Place;
 use crate::dynamics::run::Stop;
 use crate::ode::step::Counters;
 
@@ -27,6 +28,10 @@ pub struct SpragCourse {
     pub net_m: [f64; 2],
     /// Path of it, m.
     pub path_m: [f64; 2],
+    /// Signed slip at A and its path until it caught, m.
+    pub before_m: [f64; 2],
+    /// Path that B slid since it caught while a driven cage carried it, m.
+    pub carried_m: f64,
     /// Largest N_bi, N.
     pub normal_max_n: f64,
     /// When, s.
@@ -43,6 +48,32 @@ pub struct SpragCourse {
     pub gone_s: Option<f64>,
     /// Time without contact after it has caught, s.
     pub open_s: f64,
+    /// Longest stretch without contact, s, but with a cage that carries it.
+    pub longest_open_s: f64,
+    /// N_bi at the end, N.
+    pub end_n: f64,
+    /// Whether a driven cage carries it then.
+    pub carried: bool,
+}
+
+/// A stretch without contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Apart {
+    pub since_s: f64,
+    /// Whether the sprag had caught before.
+    pub caught: bool,
+}
+
+impl SpragCourse {
+    /// The stretch `apart` ends at `t_s`, s, of a sprag that has been at `place`; as of one sprag
+    /// ([`crate::dynamics::Run::longest_open_s`]).
+    pub(super) fn end_apart(&mut self, apart: Apart, place: Place, t_s: f64) {
+        let length_s = t_s - apart.since_s;
+        self.open_s += if apart.caught { length_s } else { 0.0 };
+        if place == Place::Open {
+            self.longest_open_s = self.longest_open_s.max(length_s);
+        }
+    }
 }
 
 /// All groups at one time.

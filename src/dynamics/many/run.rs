@@ -3,7 +3,7 @@
 use super::axes::{AXIS, Axes};
 use super::bending::Rings;
 use super::change::Falls;
-use super::found::{FirstSlip, ManyRun, SpragCourse};
+use super::found::{Apart, FirstSlip, ManyRun, SpragCourse};
 use super::locate::First;
 use super::rhs::Rhs;
 use super::{
@@ -61,8 +61,8 @@ pub(super) struct Going<'a, const N: usize> {
     pub(super) landed: (f64, Falls),
     /// Where no mode was better last: when it went on, s, and how far it had gone, s.
     pub(super) nudged: (f64, f64),
-    /// Since when each has been open after it caught, s.
-    pub(super) open_since: Vec<Option<f64>>,
+    /// Where each is without contact now.
+    pub(super) apart: Vec<Option<Apart>>,
     /// Last step length by kind of motion, s: in slip a sprag is a hundred times faster than the races.
     lengths: [f64; KINDS],
     start_j: f64,
@@ -132,7 +132,7 @@ impl<'a, const N: usize> Going<'a, N> {
             out,
             landed: (f64::NAN, vec![[false; EVENTS]; n]),
             nudged: (f64::NAN, 0.0),
-            open_since: vec![None; n],
+            apart: vec![None; n],
             lengths: [f64::INFINITY; KINDS],
             start_j: 0.0,
             appeared_j: 0.0,
@@ -396,6 +396,9 @@ impl<'a, const N: usize> Going<'a, N> {
                     self.out.courses[g].path_m[contact] += slipped.abs();
                 }
             }
+            if motion.mode.place == Place::Carried && self.out.courses[g].catches_s.is_some() {
+                self.out.courses[g].carried_m += (y[at + 5] - before[at + 5]).abs();
+            }
         }
         if self.rhs.motions.iter().any(|m| m.waits) {
             self.turn_back(step)?;
@@ -427,8 +430,16 @@ impl<'a, const N: usize> Going<'a, N> {
         let left = works + self.appeared_j - (now - self.start_j);
         self.out.residual_j = if left.is_finite() { left } else { 0.0 };
         self.out.through_j = self.y[HEAD - 1];
-        for (course, since) in self.out.courses.iter_mut().zip(&self.open_since) {
-            course.open_s += since.map_or(0.0, |since| self.t_s - since);
+        for g in 0..self.groups.len() {
+            let motion = self.rhs.motions[g];
+            let own = state_of(&self.y, g);
+            let sight = self.rhs.stands(g, motion.mode.place, self.t_s, &self.y, &own);
+            let course = &mut self.out.courses[g];
+            if let Some(apart) = self.apart[g] {
+                course.end_apart(apart, motion.mode.place, self.t_s);
+            }
+            course.carried = !motion.waits && motion.mode.place == Place::Carried;
+            course.end_n = if motion.waits { 0.0 } else { sight.point.n_bi };
         }
         let alpha_phi = |g: usize| {
             let s = state_of(&self.y, g);
