@@ -399,7 +399,7 @@ impl Model {
         let (n_bi, damping) = self.damped(p, speed, da);
         let mut f_alpha = n
             * (damping + self.spring_nm_per_rad * (self.alpha_max_rad - y[0])
-                - if open { 0.0 } else { wedge }
+                - if open { p.t_static * p.oa * (p.rho_i + p.rho_e) } else { wedge }
                 + swing * centrifugal
                 - self.inertia_kg_m2 * spin);
         if let Some(film) = &self.film {

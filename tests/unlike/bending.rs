@@ -125,6 +125,29 @@ fn unlike_sprags_between_races_that_bend_balance_their_energy() {
     }
 }
 
+/// Axes on bearings, and races that bend press sprags below their own first contact: what the axis turns them by goes on there (it left 1e-4).
+#[test]
+fn a_sprag_that_is_pressed_below_first_contact_between_axes_that_give_way_keeps_its_energy() {
+    let mut scene = scene("huang2017-multi-arc", "low-10-mu082");
+    lasting(&mut scene, 0.004);
+    let sharing = Sharing {
+        seed: 2,
+        size_within_m: 3e-6,
+        friction_within: 0.01,
+        gap_up_to_m: 5e-6,
+        azimuth_within_rad: 0.02,
+        stiffness_n_per_m: Some(1e8),
+        mass_kg: Some(0.3),
+        ..Sharing::default()
+    };
+    let many = Many::bending(&scene, &sharing).unwrap();
+    let all = many.run(&Settings::default(), 1e-9, 0);
+    let left = all.residual_j / all.through_j;
+    println!("{:?}, {left:.1e} of {:.3} J, {} changes", all.stop, all.through_j, all.events);
+    assert_eq!((all.stop, all.inconsistent_choices), (Stop::Finished, 0));
+    assert!(left.abs() < 1e-7, "{left:e}");
+}
+
 /// By `tests/reference/bending.py`: three sprags of which neither places nor sizes are even, shares of 0.53 to 1.32 where round races have 1. It closes
 /// each sprag between its own tracks, so what differs is u/OA, 3e-3 for the 30 um of the one pressed least.
 #[test]

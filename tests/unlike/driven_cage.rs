@@ -256,6 +256,29 @@ fn a_sprag_with_a_gap_stays_off_beyond_lift_off() {
     assert!(all.residual_j.abs() < 1e-7 * all.through_j, "{:e}", all.residual_j / all.through_j);
 }
 
+/// Races that bend let a sprag go, and touch it, far from its own first contact: at speed the centrifugal force must not know which side it is on
+/// (it left 5e-6).
+#[test]
+fn at_speed_a_contact_that_is_lost_between_bent_races_keeps_its_energy() {
+    let words = "kind = \"transient\"\nspeed_rpm = 1000.0\noverrun_rpm = 200.0\npreload_nm = 30.0\ntorque_step_nm = 0.0\n\
+                 step_time_s = 0.0\nabutment_stiffness_nm_per_rad = 200000.0\nduration_s = 0.06\n";
+    let late = GivenSprag { index: 3, gap_m: Some(12.9e-6), ..GivenSprag::default() };
+    let sharing = Sharing {
+        seed: 63,
+        start: Standing::Caged,
+        gap_up_to_m: 5e-6,
+        given: vec![late],
+        ..Sharing::default()
+    };
+    let many = Many::bending(&scene("20", words), &sharing).unwrap();
+    let all = go(&many, &settings(&many, 1e-9, 2));
+    let (left, open) =
+        (all.residual_j / all.through_j, all.courses.iter().filter(|c| c.open_s > 0.0).count());
+    println!("{:?}, {left:.1e}, {open} open, {} changes", all.stop, all.events);
+    assert_eq!((all.stop, all.inconsistent_choices), (Stop::Finished, 0));
+    assert!(open > 3 && left.abs() < 1e-7, "{open} {left:e}");
+}
+
 #[test]
 fn a_scene_that_begins_in_overrun_between_axes_that_give_way_is_refused() {
     let held = Sharing { stiffness_n_per_m: Some(1e8), ..unlike() };

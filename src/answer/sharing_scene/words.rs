@@ -179,6 +179,24 @@ impl SharingSceneAnswer<'_> {
         ))
     }
 
+    /// Lobes of the outer track that sprags pass with a driven cage, or sliding; `None`: that track is round.
+    fn outer_lobes_passed(&self) -> Option<LeftOut> {
+        let waves =
+            self.design.sharing.as_ref()?.tracks.iter().filter(|wave| wave.outer && wave.amplitude_m > 0.0);
+        let shortest = waves.map(|wave| wave.lobes).max()?.max(1) as f64;
+        let lobe_m = std::f64::consts::TAU * self.design.clutch.races.outer_radius_m / shortest;
+        let path_m = self.found.run.courses.iter().map(|c| c.path_m[1]).fold(0.0, f64::max);
+        Some(LeftOut::new(
+            "lobes of the outer track that sprags pass",
+            "each keeps under it what was there when torque began, however far it slides on that track, with a driven cage or without",
+            &format!(
+                "B slides by {} at most, the shortest lobe is {}",
+                Unit::Millimetre.show(path_m, 3),
+                Unit::Millimetre.show(lobe_m, 3)
+            ),
+        ))
+    }
+
     /// What is left out of a driven cage, or all of it; `None`: there is none.
     fn cage_drives(&self) -> Option<LeftOut> {
         self.design.clutch.cage?;
@@ -224,6 +242,7 @@ impl SharingSceneAnswer<'_> {
             ));
         }
         instead.extend(self.inner_track_leans());
+        instead.extend(self.outer_lobes_passed());
         instead.extend(self.cage_drives());
         one_by_one(self.design, instead)
     }

@@ -26,7 +26,6 @@
 //! constraint forces that follow from s itself, and is wrong by (f/f_0)^2, f_0 = sqrt(k/m)/2 pi; f_0 lies below the sprags' own
 //! frequency in slip, which steps resolve anyhow.
 
-use super::bending::pressed;
 use super::{EACH, HEAD, SpragGroup};
 use crate::clutch::{Carrier, TrackWave};
 use crate::dynamics::State;
@@ -149,6 +148,34 @@ pub(super) fn rotated([x, y]: [f64; 2], angle_rad: f64) -> [f64; 2] {
     [x * c - y * s, x * s + y * c]
 }
 
+/// From here on, rad from first contact, G is that of its table between races that bend.
+const STRAIGHT_RAD: f64 = 1e-5;
+/// The chord along which it goes straight on below, rad.
+const CHORD_RAD: f64 = 1e-8;
+
+/// G at `alpha` below `from`, straight on by the chord there. The table is level below first contact: a slope that ends where no event is,
+/// with the rolling that hangs on it, would make energy.
+fn straight_on(turns: &AxisTurns, from: f64, alpha: f64, seen_m: [f64; 2]) -> [AxisTurn; 2] {
+    let [here, beyond] = [from, from + CHORD_RAD].map(|alpha| turns.at(0, alpha, seen_m));
+    let part = (alpha - from) / CHORD_RAD;
+    std::array::from_fn(|contact| {
+        let (a, b) = (&here[contact], &beyond[contact]);
+        let on = |a: f64, b: f64| a + part * (b - a);
+        let rise = |a: f64, b: f64| (b - a) / CHORD_RAD;
+        let mut g = AxisTurn { value: on(a.value, b.value), ..AxisTurn::default() };
+        g.first[0] = rise(a.value, b.value);
+        for i in 1..3 {
+            g.first[i] = on(a.first[i], b.first[i]);
+            g.second[0][i] = rise(a.first[i], b.first[i]);
+            g.second[i][0] = g.second[0][i];
+            for j in 1..3 {
+                g.second[i][j] = on(a.second[i][j], b.second[i][j]);
+            }
+        }
+        g
+    })
+}
+
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
@@ -230,13 +257,7 @@ impl SpragGroup {
     ) -> Sight {
         let mut point = self.model.point(place, own[0]);
         if let Some(more_n) = more_n {
-            let below_rad = (self.model.curve.first_contact_rad() - own[0]).max(0.0);
-            point = pressed(point, more_n, below_rad);
-            if below_rad > 0.0 {
-                // Below its first contact a curve's geometry is level. Where it will be open when it is let go keeps the energy.
-                let open = self.model.curve.open(own[0]);
-                (point.oc_g, point.oc_g_slope) = (open.oc_g, open.oc_g_slope);
-            }
+            point = self.between_bent(place, own[0], point, more_n);
         }
         let (Some(axes), Some(at)) = (axes, &self.off_centre) else { return Sight { point, axes: None } };
         let arc = match place {
@@ -251,7 +272,13 @@ impl SpragGroup {
         // An open sprag is where it would touch.
         let alpha = if arc.is_some() { own[0] } else { self.model.curve.first_contact_rad() };
         let [out, out_slope, out_bend] = at.out_m(own[1], y[0]);
-        let mut turns = at.turns.at(arc.unwrap_or(0), alpha, [axis_m[0] + out, axis_m[1]]);
+        let seen_m = [axis_m[0] + out, axis_m[1]];
+        let from = self.model.curve.first_contact_rad() + STRAIGHT_RAD;
+        let mut turns = match arc {
+            // Between races that bend a sprag is pressed below its first contact too.
+            Some(0) if more_n.is_some() && alpha < from => straight_on(&at.turns, from, alpha, seen_m),
+            _ => at.turns.at(arc.unwrap_or(0), alpha, seen_m),
+        };
         if arc.is_none() {
             for g in &mut turns {
                 g.first[0] = 0.0;

@@ -394,6 +394,50 @@ impl<'a> Bent<'a> {
     }
 }
 
+impl SpragGroup {
+    /// `point` of a sprag at `alpha` between races that bend, which press it by `more_n` (N) more than its own curve has there.
+    ///
+    /// Where contact is lost, and found, alpha is not that of first contact: the centrifugal potential and OC_g must be the same on both
+    /// sides there, or energy jumps by F_c times what they differ by. Below first contact, where a curve's geometry is level, they are
+    /// those of an open sprag; beyond, those of its arc, which an open one keeps. Standing still there is no such potential, and an open
+    /// sprag has its own geometry everywhere.
+    pub(super) fn between_bent(
+        &self,
+        place: Place,
+        alpha: f64,
+        mut point: WedgePoint,
+        more_n: f64,
+    ) -> WedgePoint {
+        let (model, curve) = (&self.model, &self.model.curve);
+        let speed = curve.speed_rad_s();
+        // m_g OC_g OC_g' Omega^2 as a force along the track.
+        let swings = |p: &WedgePoint, level: &WedgePoint| {
+            model.mass_kg * p.oc_g * p.oc_g_slope * speed * speed / (level.oa * (level.rho_i + level.rho_e))
+        };
+        let below_rad = (curve.first_contact_rad() - alpha).max(0.0);
+        if place == Place::Open {
+            if speed != 0.0 && below_rad == 0.0 {
+                let mut closed = curve.in_arc(curve.arc_at(alpha), alpha);
+                closed.t_static += more_n * ratio(&closed);
+                let stored = closed.t_static * closed.oa * (closed.rho_i + closed.rho_e);
+                (point.oc_g, point.oc_g_slope) = (closed.oc_g, closed.oc_g_slope);
+                point.t_static = stored / (point.oa * (point.rho_i + point.rho_e)) + swings(&closed, &point);
+            }
+            return point;
+        }
+        let level_n = point.t_static;
+        point = pressed(point, more_n, below_rad);
+        if below_rad > 0.0 {
+            let open = curve.open(alpha);
+            (point.oc_g, point.oc_g_slope) = (open.oc_g, open.oc_g_slope);
+            if speed != 0.0 {
+                point.t_static -= level_n + swings(&open, &point);
+            }
+        }
+        point
+    }
+}
+
 /// `point` of a sprag that is pressed by `more_n` (N) more than on its own curve, alpha `below_rad` below first contact.
 pub(super) fn pressed(mut point: WedgePoint, more_n: f64, below_rad: f64) -> WedgePoint {
     point.t_static += more_n * ratio(&point);

@@ -39,11 +39,9 @@ impl Rhs<'_> {
         // A sprag may be open beyond first contact, and pressed before it.
         moves
             + match motion.mode.place {
-                Place::Open | Place::Carried => model.open_energy_j(touch, own[0]),
-                _ if own[0] < touch => {
-                    let p = model.curve.in_arc(0, touch);
-                    model.count * (p.t_static * p.oa * (p.rho_i + p.rho_e) * (own[0] - touch) + beside)
-                }
+                Place::Carried => model.open_energy_j(touch, own[0]),
+                _ if own[0] < touch => model.open_energy_j(touch, own[0]) + model.count * beside,
+                Place::Open if model.curve.speed_rad_s() == 0.0 => 0.0,
                 _ => model.wedge_energy_j(touch, own[0]) + model.count * beside,
             }
     }

@@ -161,7 +161,7 @@ impl<'a> Rhs<'a> {
 
     /// The same where the races are bent as `y` has them already.
     pub(super) fn stands_there(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
-        let bent = self.bent.as_ref().filter(|_| matches!(place, Place::Arc(_)));
+        let bent = self.bent.as_ref().filter(|_| matches!(place, Place::Arc(_) | Place::Open));
         let more_n = bent.and_then(|bent| Some(bent.try_borrow().ok()?.more_n(g)));
         self.groups[g].sight(self.axes, self.groups.len(), place, t, y, own, more_n)
     }
