@@ -178,11 +178,14 @@ impl SharingSceneAnswer<'_> {
                 (None, Some(c)) if c.over_s.is_some() => "beyond its end",
                 (None, Some(_)) if self.slips(*i) => "slips",
                 (None, Some(c)) if c.carried => "with the cage",
-                (None, Some(_)) => match self.found.group[*i].and_then(|g| self.found.verdicts[g]) {
-                    Some(Verdict::SlipsOverrunning) => "overruns",
-                    Some(Verdict::Disengages) => "loses contact",
-                    _ => "holds",
-                },
+                // Among others that hold it holds with them.
+                (None, Some(_)) if !self.holds() => {
+                    match self.found.group[*i].and_then(|g| self.found.verdicts[g]) {
+                        Some(Verdict::SlipsOverrunning) => "overruns",
+                        Some(Verdict::Disengages) => "loses contact",
+                        _ => "holds",
+                    }
+                }
                 _ => "holds",
             })
             .json_in("azimuth_deg", Unit::Degree, |(_, s, _)| s.azimuth_rad)

@@ -73,7 +73,7 @@ impl SharingSceneAnswer<'_> {
                 i + 1,
                 Unit::Millisecond.show(t_s, 4)
             ),
-            None if self.verdict_is(Verdict::Sticks) => "; none slips once it has caught".to_owned(),
+            None if self.holds() => "; none slips once it has caught".to_owned(),
             None => "; under load none slips once it has caught".to_owned(),
         };
         said += &self.lets_go_words();
@@ -81,8 +81,9 @@ impl SharingSceneAnswer<'_> {
         said
     }
 
-    fn verdict_is(&self, verdict: Verdict) -> bool {
-        self.found.least().is_none_or(|(_, of)| of == verdict)
+    /// Whether the races are held, as far as the run went.
+    pub(super) fn holds(&self) -> bool {
+        self.found.least().is_none_or(|(_, of)| of == Verdict::Sticks)
     }
 
     /// What the clutch does where it does not hold, in words.
