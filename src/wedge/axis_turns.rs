@@ -187,6 +187,16 @@ impl AxisTurns {
     /// G_A and G_B at `alpha` (rad) with the functions of arc `k`, the axis of the inner race at `axis_m` as the sprag sees it: along
     /// OG and across, m. Below first contact they stay what they are there.
     pub fn at(&self, k: usize, alpha: f64, axis_m: [f64; 2]) -> [AxisTurn; 2] {
+        self.read(k, alpha, None, axis_m)
+    }
+
+    /// The same of the first arc at `alpha` below `from`, rad, along the tangents there: of a sprag that is pressed below its first contact. A
+    /// slope that ended where no event is, with the rolling that hangs on it, would make energy.
+    pub fn straight_on(&self, from: f64, alpha: f64, axis_m: [f64; 2]) -> [AxisTurn; 2] {
+        self.read(0, from, Some(alpha - from), axis_m)
+    }
+
+    fn read(&self, k: usize, alpha: f64, on_rad: Option<f64>, axis_m: [f64; 2]) -> [AxisTurn; 2] {
         let reach = self.reach_m;
         let [x, y] = axis_m.map(|m| m / reach);
         // The variable of the table, its slope by alpha and the slope of that.
@@ -209,7 +219,11 @@ impl AxisTurns {
                 let (a, b) = (*a as usize, *b as usize);
                 let lane = contact * TERMS + i;
                 let (c, slope, curl) = (v[lane], v[LANES + lane], v[2 * LANES + lane]);
-                let (by_alpha, twice) = (slope * rise, curl * rise * rise + slope * bend);
+                let (by_alpha, mut twice) = (slope * rise, curl * rise * rise + slope * bend);
+                let mut c = c;
+                if let Some(on_rad) = on_rad {
+                    (c, twice) = (c + by_alpha * on_rad, 0.0);
+                }
                 let by = [xs[a] * ys[b], dx[a] * ys[b] / reach, xs[a] * dy[b] / reach];
                 g.value += c * by[0];
                 g.first[0] += by_alpha * by[0];

@@ -18,6 +18,7 @@ fn sprags_alike_have_the_verdict_of_the_scene() {
         ("huang2017-bench", "high-10-damped", Some(0.05)),
         ("huang2017-bench", "step-up", None),
         ("huang2017-bench", "step-down", None),
+        ("huang2017-bench", "in-and-out", None),
         ("huang2017-multi-arc", "high-8", Some(0.05)),
         ("huang2017-multi-arc", "low-8", Some(0.05)),
         ("huang2017-multi-arc", "low-10-mu082", Some(0.1)),

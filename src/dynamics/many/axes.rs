@@ -148,34 +148,8 @@ pub(super) fn rotated([x, y]: [f64; 2], angle_rad: f64) -> [f64; 2] {
     [x * c - y * s, x * s + y * c]
 }
 
-/// From here on, rad from first contact, G is that of its table between races that bend.
+/// From here on, rad from first contact, G is that of its table between races that bend; below it goes straight on.
 const STRAIGHT_RAD: f64 = 1e-5;
-/// The chord along which it goes straight on below, rad.
-const CHORD_RAD: f64 = 1e-8;
-
-/// G at `alpha` below `from`, straight on by the chord there. The table is level below first contact: a slope that ends where no event is,
-/// with the rolling that hangs on it, would make energy.
-fn straight_on(turns: &AxisTurns, from: f64, alpha: f64, seen_m: [f64; 2]) -> [AxisTurn; 2] {
-    let [here, beyond] = [from, from + CHORD_RAD].map(|alpha| turns.at(0, alpha, seen_m));
-    let part = (alpha - from) / CHORD_RAD;
-    std::array::from_fn(|contact| {
-        let (a, b) = (&here[contact], &beyond[contact]);
-        let on = |a: f64, b: f64| a + part * (b - a);
-        let rise = |a: f64, b: f64| (b - a) / CHORD_RAD;
-        let mut g = AxisTurn { value: on(a.value, b.value), ..AxisTurn::default() };
-        g.first[0] = rise(a.value, b.value);
-        for i in 1..3 {
-            g.first[i] = on(a.first[i], b.first[i]);
-            g.second[0][i] = rise(a.first[i], b.first[i]);
-            g.second[i][0] = g.second[0][i];
-            for j in 1..3 {
-                g.second[i][j] = on(a.second[i][j], b.second[i][j]);
-            }
-        }
-        g
-    })
-}
-
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
@@ -276,7 +250,7 @@ impl SpragGroup {
         let from = self.model.curve.first_contact_rad() + STRAIGHT_RAD;
         let mut turns = match arc {
             // Between races that bend a sprag is pressed below its first contact too.
-            Some(0) if more_n.is_some() && alpha < from => straight_on(&at.turns, from, alpha, seen_m),
+            Some(0) if more_n.is_some() && alpha < from => at.turns.straight_on(from, alpha, seen_m),
             _ => at.turns.at(arc.unwrap_or(0), alpha, seen_m),
         };
         if arc.is_none() {
