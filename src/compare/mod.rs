@@ -76,18 +76,28 @@ fn side_by_side<T>(lists: Vec<Vec<(String, T)>>) -> Vec<SideBySide<T>> {
 const PER_ARC: usize = 40;
 
 /// By how much the inner profile of `after` stands outside that of `before`, m, over the turn of the contact since first
-/// contact of `before`, rad: measured along the direction in which the contact looks, the bodies laid over one another by the centre of
-/// the outer arc and the line from there to the centre of the first inner arc. So the same sprag between other races is the same.
+/// contact of `before`, rad: measured along the direction in which the contact looks. The bodies are laid over one another by the centre of
+/// the outer arc, as they stand at first contact; or by the centre of the first inner arc, too, where they then are nearer: one sprag is the
+/// same between other races.
 pub fn proud_m(before: &Profile, after: &Profile) -> Vec<[f64; 2]> {
+    let farthest = |points: &[[f64; 2]]| points.iter().fold(0.0_f64, |most, p| most.max(p[1].abs()));
+    let centre_rad = |p: &Profile| p.arcs.first().map_or(0.0, |a| a.centre_m.x.atan2(a.centre_m.y));
+    let standing = laid_m(before, after, 0.0);
+    let by_centres = laid_m(before, after, centre_rad(after) - centre_rad(before));
+    let covers = 2 * by_centres.len() > standing.len();
+    if covers && farthest(&by_centres) < farthest(&standing) { by_centres } else { standing }
+}
+
+/// The same with `after` turned by `turned_rad`.
+fn laid_m(before: &Profile, after: &Profile, turned_rad: f64) -> Vec<[f64; 2]> {
     let until = before.end_turn_rad();
     let ends = before.arcs.iter().map(|a| a.until_rad);
     let starts: Vec<f64> = std::iter::once(0.0).chain(ends).collect();
     let turns = starts
         .windows(2)
         .flat_map(|w| (0..=PER_ARC).map(move |i| w[0] + (w[1] - w[0]) * i as f64 / PER_ARC as f64));
-    // The same direction in the other body, which stands turned in its frame and whose first contact may look another way.
-    let turned = |p: &Profile| p.arcs.first().map_or(0.0, |a| p.beta0_rad - a.centre_m.x.atan2(a.centre_m.y));
-    let ahead = turned(after) - turned(before);
+    // The same direction in the other body, whose first contact may look another way.
+    let ahead = after.beta0_rad - before.beta0_rad - turned_rad;
     turns
         .filter(|&t| t <= until && t + ahead <= after.end_turn_rad())
         .map(|t| [t, reach_m(after, t + ahead) - reach_m(before, t)])

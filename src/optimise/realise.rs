@@ -159,10 +159,13 @@ pub fn realise(
     let objective = full.value(&assessed, 0);
     desk.begins("search with flanks in place of the centroid");
     let problem = problem.over(joint.variables.iter().map(|v| v.name.clone()).collect());
-    let (made, searched) = match search_problem(&problem, &joint, &method.carried_on(), desk) {
+    let (mut made, searched) = match search_problem(&problem, &joint, &method.carried_on(), desk) {
         Ok(search) => (search, true),
         Err(_) => (standing(found, &problem, &joint)?, false),
     };
+    // Whole numbers stay as they were found.
+    let whole = |name: &String| task.variables.iter().any(|v| v.whole && v.name == *name);
+    made.variables.splice(0..0, found.variables.iter().filter(|v| whole(&v.name)).cloned());
     Ok(Some(Realised { nearest, assessed, objective, file: text, made: Box::new(made), searched }))
 }
 

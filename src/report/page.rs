@@ -311,7 +311,7 @@ mod tests {
         page.verdict(false, "<b>").figure("<svg></svg>", "caption <i>");
         let html = page.to_html();
         assert!(
-            html.contains("content: \"Margin check: Huang  co. scriptalert(1)script, 0123abcd\""),
+            html.contains("content: \"Margin check: Huang & co. scriptalert(1)/script, 0123abcd\""),
             "{html}"
         );
         for bad in ["<script>alert", "<i>", "<b>", "</pre><b>", "a < b"] {

@@ -4,7 +4,7 @@
 //! neighbour: where the walks find different ones, two states coexist. Rows know nothing of one another, so the map does not depend
 //! on how many threads share them.
 
-use super::periodic::{MotionKind, Steady, steady_motion};
+use super::periodic::{Steady, steady_motion};
 use super::prepare::{NoScenario, prepare};
 use super::simulate::Settings;
 use crate::clutch::{Scenario, ScenarioKind};
@@ -44,9 +44,6 @@ pub fn resonance(
     Ok(Some(rows).filter(|rows| !rows.is_empty()))
 }
 
-/// Where neither walk finds a motion: ways to its frequency, as parts of it, along which it is looked for once more.
-const BESIDE: [[f64; 4]; 2] = [[0.97, 0.98, 0.99, 1.0], [1.03, 1.02, 1.01, 1.0]];
-
 fn row(
     scenario: &Scenario,
     frequencies_hz: &[f64],
@@ -57,7 +54,7 @@ fn row(
     let ScenarioKind::TorsionalExcitation { amplitude_nm, .. } = &mut scenario.kind else { return Ok(None) };
     *amplitude_nm = amplitude;
     let mut prepared = prepare(&scenario)?;
-    let mut walk = |order: &mut dyn Iterator<Item = &f64>, from: Option<Steady>, done: &dyn Fn()| {
+    let mut walk = |order: &mut dyn Iterator<Item = &f64>, from: Option<Steady>| {
         let mut found: Vec<Steady> = Vec::new();
         for &frequency_hz in order {
             prepared.period_s = Some(1.0 / frequency_hz);
@@ -69,32 +66,18 @@ fn row(
                 return None;
             }
             found.push(state);
-            done();
+            settings.follow.news(News::Done);
         }
         Some(found)
     };
-    let done = || settings.follow.news(News::Done);
-    let Some(up) = walk(&mut frequencies_hz.iter(), None, &done) else { return Ok(None) };
-    let Some(mut down) = walk(&mut frequencies_hz.iter().rev(), up.last().cloned(), &done) else {
-        return Ok(None);
-    };
+    let Some(up) = walk(&mut frequencies_hz.iter(), None) else { return Ok(None) };
+    let Some(mut down) = walk(&mut frequencies_hz.iter().rev(), up.last().cloned()) else { return Ok(None) };
     down.reverse();
-    let mut cells = Vec::new();
-    for (&frequency_hz, (state, other)) in frequencies_hz.iter().zip(up.into_iter().zip(down)) {
+    let cells = frequencies_hz.iter().zip(up.into_iter().zip(down)).map(|(&frequency_hz, (state, other))| {
         // A walk that found nothing says nothing against the other.
-        let (mut state, mut other) = if state.motion.is_err() { (other, state) } else { (state, other) };
-        let mut beside = BESIDE.iter();
-        while state.kind == MotionKind::NotFound
-            && let Some(parts) = beside.next()
-        {
-            let way = parts.map(|part| part * frequency_hz);
-            let Some(mut states) = walk(&mut way.iter(), None, &|| ()) else { return Ok(None) };
-            if let Some(found) = states.pop().filter(|found| found.kind != MotionKind::NotFound) {
-                (state, other) = (found.clone(), found);
-            }
-        }
+        let (state, other) = if state.motion.is_err() { (other, state) } else { (state, other) };
         let other = Some(other).filter(|other| other.differs(&state));
-        cells.push(ResonanceCell { frequency_hz, amplitude_nm: amplitude, state, other });
-    }
-    Ok(Some(cells))
+        ResonanceCell { frequency_hz, amplitude_nm: amplitude, state, other }
+    });
+    Ok(Some(cells.collect()))
 }

@@ -42,6 +42,26 @@ fn the_optimum_with_a_free_centroid_can_be_made() {
     assert!(on.feasible() && on.objective.1 >= made.objective - 1e-6);
 }
 
+/// A whole number that was searched beside the centroid is among what was found.
+#[test]
+fn a_whole_number_beside_a_free_centroid_is_told() {
+    let with_count = changed(
+        HUANG,
+        &[
+            ("variables = [", "variables = [\n  { name = \"count\", min = 11, max = 12 },"),
+            (
+                r#"scenarios = ["high-6", "low-10", "rated-45", "rated-45-at-speed"]"#,
+                r#"scenarios = ["rated-45-at-speed"]"#,
+            ),
+        ],
+    );
+    let (found, made) = realised(&with_count);
+    let count = |search: &Search| search.variables.iter().find(|v| v.name == "count").map(|v| v.best);
+    let made_with = Design::parse(&made.made.file, "new.toml").unwrap().clutch.sprags.count;
+    assert_eq!(count(&made.made), count(&found));
+    assert_eq!(count(&made.made), Some(made_with as f64));
+}
+
 /// A centroid that no straight flanks reach: the nearest, and no other flanks of the box are nearer.
 #[test]
 fn a_centroid_out_of_reach_has_a_nearest() {

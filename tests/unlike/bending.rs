@@ -126,7 +126,7 @@ fn unlike_sprags_between_races_that_bend_balance_their_energy() {
 }
 
 /// Axes on bearings, and races that bend press sprags below their own first contact: what the axis turns them by goes on there. It left 5e-4;
-/// 2e-6 are left yet, at whatever tolerance.
+/// 2e-6 are left yet; why is not known.
 #[test]
 fn a_sprag_that_is_pressed_below_first_contact_between_axes_that_give_way_keeps_its_energy() {
     let mut scene = scene("huang2017-multi-arc", "low-10-mu082");

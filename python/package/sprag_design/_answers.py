@@ -1599,7 +1599,7 @@ class SharingScene(_Common):
     verdict: str
     """The answer in one line."""
     held: bool
-    """Whether the scene came to its end and no sprag slipped after it had caught."""
+    """Whether the clutch holds to the end of the scene, or lets go where its torque turns round, and no sprag slips under load or goes over."""
     scenario: str
     """Name of the scenario."""
     stop: str

@@ -103,12 +103,15 @@ impl Capacity {
         })
     }
 
-    /// Those of the limits that are held at nominal torque and at peak torque; the first is no larger than the second, since a peak is no
-    /// smaller than what it is the peak of.
+    /// Those of the limits that are held at nominal torque and at peak torque; what is reached first at peak torque before the curve ends
+    /// counts for both, since a peak is no smaller than what it is the peak of.
     pub fn nominal_and_peak(rows: &[Margin], end_torque_nm: f64) -> [Option<Self>; 2] {
         let nominal = |r: &Margin| r.limit.when == When::Nominal;
-        let any = |_: &Margin| Self::asked_at_nominal(rows);
-        [Self::lowest(rows, end_torque_nm, any), Self::lowest(rows, end_torque_nm, |r| !nominal(r))]
+        let own = Self::lowest(rows, end_torque_nm, nominal);
+        let peak = Self::lowest(rows, end_torque_nm, |r| !nominal(r));
+        let most_nm = own.as_ref().map_or(end_torque_nm, |c| c.torque_capacity_nm);
+        let sooner = peak.clone().filter(|c| Self::asked_at_nominal(rows) && c.torque_capacity_nm < most_nm);
+        [sooner.or(own), peak]
     }
 
     /// Whether any required row is held at nominal torque.

@@ -95,12 +95,9 @@ fn sprag(page: &mut Page, design: &Design) {
     page.heading("Sprag to make");
     page.table(
         "Anticlockwise round the body as drawn above: the origin is Cₑ, y points along the centre line to the outer race. A surface \
-         without a radius is flat. export writes the same as DXF, STEP or CSV.",
+         without a radius is flat. export writes the same as DXF, STEP or CSV. Not on this sheet, since the design does not hold it: \
+         tolerances of form, roughness, hardness and its depth, edges, cage, shape of the spring.",
         &table,
-    );
-    page.paragraph(
-        "Not on this sheet, since the design does not hold it: tolerances of form, roughness, hardness and its depth, edges, cage, \
-         shape of the spring.",
     );
 }
 

@@ -150,6 +150,7 @@ pub(super) fn rotated([x, y]: [f64; 2], angle_rad: f64) -> [f64; 2] {
 
 /// From here on, rad from first contact, G is that of its table between races that bend; below it goes straight on.
 const STRAIGHT_RAD: f64 = 1e-5;
+
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }

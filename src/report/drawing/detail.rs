@@ -168,7 +168,7 @@ pub(super) fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
 }
 
 /// Engagement lowers the inner race's angle against the outer's: anticlockwise on the page.
-pub(super) fn draw_arrow(svg: &mut Svg, view: &View) {
+fn draw_arrow(svg: &mut Svg, view: &View) {
     let [width, height] = view.size;
     // Above the scale bar where both find no room side by side.
     let y = height - if width > PHONE_PX { 18.0 } else { 40.0 };

@@ -202,7 +202,6 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f6
     svg.open_part([left, top + 24.0], size);
     detail::draw_races(svg, drawing, &view);
     detail::draw_sprags(svg, &view, pose, &[]);
-    detail::draw_arrow(svg, &view);
     let up = view.px([0.0, pose.outer_centre_distance_m]);
     centre_line(svg, [up[0], 0.0], [up[0], size[1]]);
     svg.close_part();
@@ -234,6 +233,8 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f6
             format!("pole ({x:.4}, {y:.4}) mm from Cₑ, as {arcs} arcs"),
         ]);
     }
+    // Engagement lowers the inner race's angle against the outer's.
+    lengths.push("to engage the inner race turns anticlockwise".to_owned());
     // In as many lines as they need.
     let mut lines: Vec<String> = Vec::new();
     for length in lengths {
