@@ -57,7 +57,7 @@ pub use many::{
 pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 pub use outside::{events, next_mode};
-pub use periodic::{NoOrbit, Orbit, Shooting, orbit};
+pub use periodic::{FINEST_STEPS, NoOrbit, Orbit, Shooting, orbit};
 #[cfg(feature = "validation")]
 pub use published::{PublishedSettings, published};
 pub use repeat::Jump;

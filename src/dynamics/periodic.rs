@@ -42,6 +42,10 @@ const LONGEST: f64 = 0.5;
 const LONGER: f64 = 4.0;
 /// How far, by what a shortened step was to change, what it leaves may be from what the Jacobian said.
 const LINEAR: f64 = 0.1;
+/// Tolerance of the steps over that before, where Newton stops at their error.
+const FINER: f64 = 1e-2;
+/// Finest tolerance of steps.
+pub const FINEST_STEPS: f64 = 1e-12;
 /// Samples by which the ranges are taken.
 const SAMPLES: usize = 65;
 
@@ -143,14 +147,19 @@ pub fn orbit(model: &Model, state: State, mode: Mode, shooting: &Shooting) -> Re
     if model.loads.abutment_nm_per_rad <= 0.0 {
         return Err(NoOrbit::NothingHolds);
     }
-    let mut search = Search { model, shooting, periods: 0, least: f64::INFINITY };
+    let mut search = Search { model, shooting: shooting.clone(), periods: 0, least: f64::INFINITY };
     let (mut here, mut settle) = (Section { state, mode }, shooting.settle);
     let mut ended = None;
     for _ in 0..ROUNDS {
         for _ in 0..settle {
             here = search.period(&here, 0)?.0;
         }
-        match search.newton(&here) {
+        let mut found = search.newton(&here);
+        // Small steps that grow no smaller are the error of a period, which multipliers near 1 show many times over.
+        if matches!(found, Ok(None)) && search.least <= NEAR && search.finer() {
+            found = search.newton(&here);
+        }
+        match found {
             Ok(Some(orbit)) => return Ok(orbit),
             Ok(None) => {}
             Err(NoOrbit::Ends(Stop::Interrupted)) => return Err(NoOrbit::Ends(Stop::Interrupted)),
@@ -167,13 +176,21 @@ pub fn orbit(model: &Model, state: State, mode: Mode, shooting: &Shooting) -> Re
 
 struct Search<'a> {
     model: &'a Model,
-    shooting: &'a Shooting,
+    shooting: Shooting,
     periods: u64,
     /// Smallest Newton step so far.
     least: f64,
 }
 
 impl Search<'_> {
+    /// Finer steps from here on; false where they are as fine as rounding lets them.
+    fn finer(&mut self) -> bool {
+        let tolerance = &mut self.shooting.period.tolerance;
+        let before = *tolerance;
+        *tolerance = (FINER * before).max(FINEST_STEPS).min(before);
+        *tolerance < before
+    }
+
     /// One period: where it ends, angles that run on counted from anew, and the run.
     fn period(&mut self, from: &Section, samples: usize) -> Result<(Section, Run), NoOrbit> {
         self.periods += 1;

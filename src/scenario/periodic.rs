@@ -7,7 +7,7 @@ use super::demand::{STEPS_PER_PERIOD_OF_DEMAND, slip_margin};
 use super::prepare::Prepared;
 use super::simulate::Settings;
 use crate::dynamics::{
-    Grip, Mode, NoOrbit, Orbit, Place, Rolling, RunSettings, Shooting, State, Stop, orbit,
+    FINEST_STEPS, Grip, Mode, NoOrbit, Orbit, Place, Rolling, RunSettings, Shooting, State, Stop, orbit,
 };
 
 /// What the clutch does in each period.
@@ -88,8 +88,6 @@ impl Steady {
 const FINER: f64 = 1e-2;
 /// Last Newton step over the tolerance of the figures.
 const NEWTON: f64 = 0.1;
-/// Finest tolerance of steps.
-const FINEST: f64 = 1e-12;
 /// Periods that are run before the first Newton where nothing is near.
 const SETTLE: u64 = 3;
 /// Samples of a period.
@@ -103,7 +101,7 @@ pub fn steady_motion(prepared: &Prepared, settings: &Settings, near: Option<&Ste
     let model = &prepared.model;
     let [most_steps, most_events] = settings.limits(prepared);
     let period = RunSettings {
-        tolerance: (FINER * settings.tolerance).max(FINEST),
+        tolerance: (FINER * settings.tolerance).max(FINEST_STEPS),
         duration_s: period_s,
         longest_step_s: settings.longest_step_s.unwrap_or(period_s / STEPS_PER_PERIOD_OF_DEMAND),
         most_events,

@@ -375,3 +375,15 @@ fn the_command_in_every_form() {
         assert!(String::from_utf8_lossy(&refused.stderr).contains(word), "{refused:?}");
     }
 }
+
+/// Both races swing on a soft abutment by themselves, multipliers near 1: they show the error of a period many times over, and Newton
+/// stops short of what is asked unless the steps are finer.
+#[test]
+fn a_swing_on_a_soft_abutment_is_found() {
+    let (_, found) =
+        steady(&scene("tests/motion/designs/soft-abutment.toml", "second-order", 20.0, 5.0, 40.0));
+    assert_eq!(found.kind, MotionKind::Rolls);
+    let beside =
+        steady(&scene("tests/motion/designs/soft-abutment.toml", "second-order", 20.0, 5.001, 40.0)).1;
+    close(found.required_friction.unwrap(), beside.required_friction.unwrap(), 1e-5, "mu_req");
+}
