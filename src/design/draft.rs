@@ -7,6 +7,9 @@ use crate::material::Steel;
 /// Box of the variables of a new design file, r_i1 and e_1, over their values there.
 pub const BOX: [[f64; 2]; 2] = [[0.9, 1.1], [0.8, 1.2]];
 
+/// What every limit of a new design file keeps of its margin, and a search of it leaves: a choice, so that rounding and tolerances find room.
+pub const RESERVE: f64 = 0.02;
+
 /// A scene as new design files have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NewScene {

@@ -12,7 +12,7 @@ mod which;
 
 pub use draft::{
     BOX, Draft, DraftScene, ENGAGE, KINETIC_SHARE, NEW_SCENES, NewScene, OVERRUN, RATED_STATIC, RATED_STEP,
-    SWING, USUAL_SLIDING_RAD_S, VISCOUS_SHARE,
+    RESERVE, SWING, USUAL_SLIDING_RAD_S, VISCOUS_SHARE,
 };
 pub(crate) use limits::LimitsFile;
 pub use limits::{LIMIT_KEYS, LimitKey, Limits};

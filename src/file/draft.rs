@@ -4,7 +4,7 @@
 //! were found, whether they make a clutch (parse it). Equations: none.
 
 use crate::design::{
-    BOX, Draft, DraftScene, KINETIC_SHARE, NewScene, RATED_STATIC, RATED_STEP, VISCOUS_SHARE, rpm,
+    BOX, Draft, DraftScene, KINETIC_SHARE, NewScene, RATED_STATIC, RATED_STEP, RESERVE, VISCOUS_SHARE, rpm,
 };
 use crate::numeric::rounded;
 
@@ -153,6 +153,7 @@ variables = [
   {{ name = "r_i1_mm", min = {ri_min}, max = {ri_max} }},
   {{ name = "centre_distance_mm", min = {e_min}, max = {e_max} }},
 ]
+reserve = {RESERVE}                      # choice: what every limit keeps of its margin
 seed = 1
 "#,
             name = self.name,

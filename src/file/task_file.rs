@@ -41,7 +41,7 @@ pub(super) struct OptimizeFile {
     #[serde(default = "step_mm")]
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub step_mm: f64,
-    /// What every margin keeps beyond its limit: 0.05 holds each limit with 5 % to spare.
+    /// What every margin keeps beyond its limit, room in the outline apart: 0.05 holds each limit with 5 % to spare.
     #[serde(default)]
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub reserve: f64,

@@ -84,7 +84,7 @@ pub struct ClutchProblem {
     scenarios: Vec<String>,
     goals: Vec<Goal>,
     corners: Vec<Corner>,
-    /// What every limit keeps of its margin.
+    /// What every limit of the clutch keeps of its margin.
     reserve: f64,
     fidelity: Fidelity,
     /// Whether margins may differ by less than their tolerance: see [`ClutchProblem::quickly`].
@@ -289,7 +289,7 @@ impl ClutchProblem {
         let checked = if self.as_checked { format!("{:?}", self.checked) } else { String::new() };
         // Nothing where there is none, so that earlier journals stay valid.
         let reserve =
-            if self.reserve > 0.0 { format!("reserve {:?}\n", self.reserve) } else { String::new() };
+            if self.reserve > 0.0 { format!("reserve {:?} of loads\n", self.reserve) } else { String::new() };
         let links = if links.is_empty() { String::new() } else { format!("{links:?}\n") };
         let quick = if self.quick { "quickly\n" } else { "" };
         let flanked = if self.flanked && !self.frees_flanks() { "flanked\n" } else { "" };
@@ -500,9 +500,14 @@ impl ClutchProblem {
         self.reserve
     }
 
+    /// What a margin keeps: nothing where it is room in the outline, which strains nothing.
+    pub(super) fn kept(&self, m: &Margin) -> f64 {
+        if m.limit.when == When::Outline { 0.0 } else { self.reserve }
+    }
+
     /// A margin as a constraint, 0 or more being held: what is left of it beyond the reserve.
     pub fn left(&self, m: &Margin) -> f64 {
-        m.margin() - self.reserve
+        m.margin() - self.kept(m)
     }
 
     /// Whether a margin is held with the reserve.

@@ -155,8 +155,10 @@ pub fn spread(
         ends.iter().zip(&at_ends).filter(|(_, e)| e.is_err()).map(|(c, _)| c.name()).collect();
     let good: Vec<&Evaluation> = at_draws.iter().filter_map(|e| e.as_ref().ok()).collect();
     let count = nominal.objectives.len();
+    let rows = nominal_problem.limit_rows(&assessed.rows);
+    let kept: Vec<f64> = rows.into_iter().map(|m| problem.kept(m)).collect();
     let row = |e: &Evaluation, j: usize| {
-        if j < count { e.objectives[j] } else { e.limits[j - count] + problem.reserve() }
+        if j < count { e.objectives[j] } else { e.limits[j - count] + kept[j - count] }
     };
     let code = |names: &Names, j: usize| {
         if j < count { names.objectives[j].clone() } else { names.limits[j - count].clone() }

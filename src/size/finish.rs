@@ -5,7 +5,7 @@ use super::proportions::{COUNTS, lengthen, longest_m, spring};
 use super::purpose::{CREST_S, DRIVE_HZ, STOP};
 use super::requirements::{NAMED, Requirements};
 use crate::clutch::Clutch;
-use crate::design::{BOX, Design, Draft, rpm};
+use crate::design::{BOX, Design, Draft, RESERVE, rpm};
 use crate::margin::{
     Capacities, KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state_at, margins, overrun_at,
 };
@@ -15,8 +15,8 @@ use crate::scenario::Settings;
 use crate::wedge::Effort;
 use std::f64::consts::TAU;
 
-/// Margin that a first design keeps on every limit: a choice, so that rounding and the optimiser find room.
-pub(super) const KEPT: f64 = 0.02;
+/// Margin that a first design keeps on every limit.
+pub(super) const KEPT: f64 = RESERVE;
 
 /// By how much one race of a first design may be warmer than the other without that the sprags lose their surface below peak torque, K: a
 /// choice.

@@ -188,6 +188,10 @@ function fields(list) {
     for (const input of field.querySelectorAll("input, select")) {
       if (input === document.activeElement && input.type !== "range" && field.classList.contains("bad")) continue;
       if (input !== document.activeElement || input.type === "range") input.value = f.value ?? f.choice[0];
+      if (input.type !== "range") continue;
+      const beyond = Number(f.value) < f.range[0] || Number(f.value) > f.range[1];
+      input.classList.toggle("stale", beyond);
+      input.title = `${short(f.range[0])} to ${short(f.range[1])} ${f.unit}${beyond ? ": the value lies outside" : ""}`;
     }
   }
 }
@@ -256,7 +260,6 @@ function fieldOf(f) {
     slider.type = "range";
     [slider.min, slider.max] = f.range;
     slider.step = f.whole ? "1" : String((f.range[1] - f.range[0]) / 400);
-    slider.title = `${short(f.range[0])} to ${short(f.range[1])} ${f.unit}`;
     listen(slider, "input");
     slider.addEventListener("input", () => { number.value = f.whole ? slider.value : short(Number(slider.value), 6); });
     field.append(slider);
