@@ -34,8 +34,8 @@ pub(super) struct ScenarioFile {
     /// torsional-excitation: frequency of that torque, Hz.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub frequency_hz: Option<f64>,
-    /// torsional-excitation and transient: stiffness that ties the outer race to ground, N m/rad (of ten times the preload, both races turn by
-    /// 0.1 rad under it); absent beside a drivetrain: the outer race is free.
+    /// torsional-excitation and transient: stiffness that ties the outer race to ground, N m/rad; absent beside a
+    /// drivetrain: the outer race is free.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub abutment_stiffness_nm_per_rad: Option<f64>,
     /// torsional-excitation, engagement and transient: duration, s.
