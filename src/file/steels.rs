@@ -210,10 +210,10 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
     let common = text("material.name");
     let of = |body: &str| text(&format!("material.{body}.name")).or(common);
     let [Some(sprag), Some(inner), Some(outer)] = BODIES.map(of) else {
-        let paths = BODIES.map(|body| format!("material.{body}.name"));
-        let misspelt = |path: &str| out.text(path).is_some_and(|name| steel(name).is_none());
         // A name that is not known is refused where it stands.
-        if misspelt("material.name") || paths.iter().any(|path| misspelt(path)) {
+        let mut paths =
+            BODIES.iter().map(|body| format!("material.{body}.name")).chain(["material.name".to_owned()]);
+        if paths.any(|path| out.text(&path).is_some_and(|name| steel(name).is_none())) {
             return base;
         }
         out.refuse(
