@@ -157,9 +157,10 @@ impl Page {
         self.push("</div>\n")
     }
 
-    /// A long and narrow table, printed in two columns.
-    pub fn narrow_table(&mut self, table: &Table) -> &mut Self {
-        self.table_in("table narrow", "", table)
+    /// A long table, printed in two columns where it is narrow.
+    pub fn long_table(&mut self, caption: &str, table: &Table) -> &mut Self {
+        let class = if table.columns.len() <= 4 { "table narrow" } else { "table" };
+        self.table_in(class, caption, table)
     }
 
     /// What is left out, why, and what that costs.

@@ -236,7 +236,7 @@ impl Answer for SearchReport<'_> {
             .curve("least scaled objective", path(|it| it.least_margin))
             .curve("worst violation of a limit", path(|it| it.violation));
         page.figure(&plot.to_figure(), "Path of the search; a violated limit is paid first.");
-        page.table(
+        page.long_table(
             "Influence at the start: change of each margin over the whole range of each variable",
             &story.influence_table(),
         );

@@ -24,7 +24,7 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
     page.paragraph(&described(scene));
     page.list(&scene.body.notes);
     let (first, all) = facts::first_and_all(facts::table(scene));
-    page.narrow_table(&first);
+    page.long_table("", &first);
     if let Ok((prepared, simulation)) = &scene.outcome {
         if scene.method != "equilibrium" {
             histories(&mut page, scene, prepared, simulation);
@@ -40,7 +40,7 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
             };
             all.rows.retain(|row| !is_said(row));
             page.folded("All figures of this scene but those of slip, with their errors", |page| {
-                page.narrow_table(&all);
+                page.long_table("", &all);
             });
         }
         if let Some(table) = facts::beside_rolling(simulation).filter(|_| scene.method != "equilibrium") {
