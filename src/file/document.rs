@@ -31,7 +31,9 @@ impl<'a> Document<'a> {
         if errors.is_empty() {
             return Ok(Self { source, root: root.into_inner() });
         }
-        let first = errors.iter().take(MOST_COLLECTED);
+        // Behind a bracket that is not closed everything is a fault.
+        let sound = errors.iter().position(is_left_open).map_or(errors.len(), |open| open + 1);
+        let first = errors[..sound].iter().take(MOST_COLLECTED);
         let mut problems: Vec<Problem> = first.map(|e| syntax_problem(source, e)).collect();
         // What follows the first fault of a line is mostly its echo.
         problems.dedup_by_key(|p| p.place.as_ref().map(|place| place.line));
@@ -148,6 +150,11 @@ fn shortened(text: &str) -> String {
     if chars.next().is_some() { format!("{start}...") } else { start }
 }
 
+/// Whether an inline table or an array goes on where it should have ended.
+fn is_left_open(error: &toml::de::Error) -> bool {
+    ["inline table", "array element", "between key-value pairs"].iter().any(|s| error.message().contains(s))
+}
+
 fn syntax_problem(source: &str, error: &toml::de::Error) -> Problem {
     let place = TextPlace::of(source, error.span().unwrap_or(0..0));
     let (what, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
@@ -166,6 +173,11 @@ fn syntax_problem(source: &str, error: &toml::de::Error) -> Problem {
         "keep one of the two: a key may stand only once in a table".to_owned()
     } else if has_decimal_comma(source.lines().nth(place.line.saturating_sub(1)).unwrap_or("")) {
         "write the number with a point: 135.5, not 135,5".to_owned()
+    } else if is_left_open(error) {
+        format!(
+            "close what is open before line {}, column {}: a }} for each {{, a ] for each [",
+            place.line, place.column
+        )
     } else {
         format!(
             "write line {} as TOML: key = value, text in \"quotes\", a table's name in [brackets]",
@@ -233,5 +245,15 @@ mod tests {
         let problems = Document::parse("[sprags] # shape\ncount = twelve\n").err().unwrap_or_default();
         assert_eq!(problems[0].key, "sprags.count");
         assert_eq!(problems[0].place.as_ref().map(|p| p.line), Some(2));
+    }
+
+    #[test]
+    fn what_follows_an_open_bracket_is_no_fault_of_its_own() {
+        for (text, line) in [("a = [{ x = 1 ]\nb = 2\n[c]\nd = 3\n", 1), ("a = [1, 2\nb = 3\nc = 4\n", 2)] {
+            let problems = Document::parse(text).err().unwrap_or_default();
+            assert_eq!(problems.len(), 1, "{problems:?}");
+            assert_eq!(problems[0].place.as_ref().map(|p| p.line), Some(line));
+            assert!(problems[0].help.starts_with("close what is open"), "{problems:?}");
+        }
     }
 }

@@ -9,6 +9,7 @@ use super::edit::{EditError, arcs, parse, replace};
 use super::shape;
 use super::variables::{variable_names, variable_path};
 use crate::clutch::{LAWS, LawFacts};
+use crate::design::nearest;
 
 /// The text with `value` at `path`: a dotted path of the file, a row of an array by its number from 0 or by its `name`
 /// (`scenarios[high-10].amplitude_nm`), or a variable's short name (`r_i2_mm`). A key that is not there is added, also its
@@ -96,9 +97,13 @@ fn in_scenes(path: &str, document: &Item) -> Vec<String> {
     }
     let rows = document.get("scenarios").and_then(Item::as_array_of_tables);
     let rows = rows.into_iter().flatten().filter(|row| row.contains_key(key));
-    let names = rows.filter_map(|row| row.get("name").and_then(Item::as_str));
-    let meant = names.filter(|name| steps.iter().all(|step| step == name));
-    meant.map(|name| format!("scenarios[{name}].{key}")).collect()
+    let names: Vec<&str> = rows.filter_map(|row| row.get("name").and_then(Item::as_str)).collect();
+    let meant = match steps[..] {
+        [] => names,
+        [scene] => nearest(scene, &names).into_iter().collect(),
+        _ => Vec::new(),
+    };
+    meant.into_iter().map(|name| format!("scenarios[{name}].{key}")).collect()
 }
 
 /// The item that one step of a path names; a table that is absent is made.
@@ -213,6 +218,14 @@ mod tests {
         let new = with_setting(DESIGN, "limits.windup_nominal_deg", "2.5").unwrap();
         let design = Design::parse(&new, "new.toml").unwrap();
         assert_eq!(design.limits.windup_nominal_rad, Some(2.5_f64.to_radians()));
+    }
+
+    #[test]
+    fn a_scene_misspelt_before_a_key_is_meant_by_it() {
+        for path in ["scenarios.hihg-10.amplitude_nm", "high10.amplitude_nm"] {
+            let refused = with_setting(DESIGN, path, "1").unwrap_err().to_string();
+            assert!(refused.contains("scenarios[high-10].amplitude_nm"), "{path}: {refused}");
+        }
     }
 
     #[test]

@@ -48,25 +48,7 @@ def new(
 
     Raises ``ValueError`` for what no clutch can be asked for, :class:`NotSized` where no clutch of the family does it.
     """
-    numbers = {
-        "bore_mm": bore_mm,
-        "torque_nm": torque_nm,
-        "peak_nm": peak_nm,
-        "safety": safety,
-        "inner_track_mm": inner_track_mm,
-        "outer_track_mm": outer_track_mm,
-        "outside_mm": outside_mm,
-        "width_mm": width_mm,
-        "inner_rpm": inner_rpm,
-        "outer_rpm": outer_rpm,
-        "keep_contact_rpm": keep_contact_rpm,
-        "lift_off_rpm": lift_off_rpm,
-        "swing_nm": swing_nm,
-        "swing_hz": swing_hz,
-        "friction": friction,
-        "engagements": engagements,
-    }
-    return _first(purpose, numbers, material)
+    return _first(**locals())
 
 
 def size(
@@ -87,22 +69,7 @@ def size(
     material: str | None = None,
 ) -> FirstDesign:
     """A first design without a purpose, as the command ``size`` writes it; arguments and exceptions are those of :func:`new`."""
-    numbers = {
-        "bore_mm": bore_mm,
-        "torque_nm": torque_nm,
-        "peak_nm": peak_nm,
-        "safety": safety,
-        "inner_track_mm": inner_track_mm,
-        "outer_track_mm": outer_track_mm,
-        "outside_mm": outside_mm,
-        "width_mm": width_mm,
-        "inner_rpm": inner_rpm,
-        "outer_rpm": outer_rpm,
-        "keep_contact_rpm": keep_contact_rpm,
-        "lift_off_rpm": lift_off_rpm,
-        "friction": friction,
-    }
-    return _first(None, numbers, material)
+    return _first(purpose=None, **locals())
 
 
 _KEYS = {
@@ -118,7 +85,7 @@ _KEYS = {
 """Arguments that say a unit which their option leaves out."""
 
 
-def _first(purpose: str | None, numbers: dict[str, float | None], material: str | None) -> FirstDesign:
+def _first(*, purpose: str | None, material: str | None, **numbers: float | None) -> FirstDesign:
     if numbers["torque_nm"] is None and numbers["peak_nm"] is None:
         raise ValueError("torque_nm or peak_nm: give one of them, or both")
     given: list[tuple[str, str, float]] = []

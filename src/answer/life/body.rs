@@ -195,8 +195,12 @@ impl LifeAnswer<'_> {
             .number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4, |l| {
                 l.state.map(|p| p.hertz_outer_pa)
             })
-            .number("hoop_inner_mpa", "Hoop inner", Unit::Megapascal, 4, |l| l.state.map(|_| l.hoop_pa[0]))
-            .number("hoop_outer_mpa", "Hoop outer", Unit::Megapascal, 4, |l| l.state.map(|_| l.hoop_pa[1]))
+            .number("hoop_inner_mpa", "Hoop+bending inner", Unit::Megapascal, 4, |l| {
+                l.state.map(|_| l.hoop_pa[0])
+            })
+            .number("hoop_outer_mpa", "Hoop+bending outer", Unit::Megapascal, 4, |l| {
+                l.state.map(|_| l.hoop_pa[1])
+            })
             .number("walk_inner_mm", "Walk inner", Unit::Millimetre, 3, |l| l.state.map(|_| l.walk_m[0]))
             .number("walk_outer_mm", "Walk outer", Unit::Millimetre, 3, |l| l.state.map(|_| l.walk_m[1]))
             .number("slip_probability", "Slips, of one", Unit::One, 2, |l| l.slip)

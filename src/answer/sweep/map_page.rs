@@ -64,6 +64,20 @@ impl SweepMap {
         format!("{} of {} points hold every limit ({share}){void}", self.held, self.points)
     }
 
+    /// The unit in which people read what is mapped: of a margin per cent, as everywhere.
+    fn unit(&self) -> Unit {
+        let is_margin = self.by == "margin" || self.by.starts_with("limit.");
+        if is_margin { Unit::Percent } else { Unit::One }
+    }
+
+    /// What is mapped, with its unit apart.
+    fn by_title(&self) -> String {
+        match self.unit() {
+            Unit::One => self.by.clone(),
+            unit => format!("{}, {}", self.by, unit.symbol()),
+        }
+    }
+
     /// The best point, in words.
     fn best_words(&self) -> Option<String> {
         let best = self.best.as_ref()?;
@@ -73,16 +87,13 @@ impl SweepMap {
             .zip(&best.x)
             .map(|(v, x)| format!("{} = {}", v.name, plain(*x, 6)))
             .collect();
+        let value = self.unit().show(best.value, 4);
         let what = match (best.held, best.least) {
             (true, Some(least)) => {
                 format!("Best point held: {}, least objective {}", best.index, significant(least, 4))
             }
-            (true, None) => {
-                format!("Best point held: {}, {} {}", best.index, self.by, significant(best.value, 4))
-            }
-            (false, _) => {
-                format!("Nearest point: {}, {} {}", best.index, self.by, significant(best.value, 4))
-            }
+            (true, None) => format!("Best point held: {}, {} {}", best.index, self.by, value),
+            (false, _) => format!("Nearest point: {}, {} {}", best.index, self.by, value),
         };
         Some(format!("{what}; {}", x.join(", ")))
     }
@@ -265,7 +276,7 @@ impl SweepMap {
         let tiles: Vec<(Shade, Option<bool>)> = pair.tiles.iter().map(tile).collect();
         let ends = |[low, high]: [f64; 2], shade: fn(u8) -> Shade, words: &str, from_low: bool| {
             let (first, last) = if from_low { (low, high) } else { (high, low) };
-            let one = |k: u8, value: f64| (shade(k), format!("{words} {}", significant(value, 2)));
+            let one = |k: u8, value: f64| (shade(k), format!("{words} {}", self.unit().show(value, 2)));
             match (low <= high, low == high) {
                 (false, _) => vec![],
                 (true, true) => vec![one(SHADES - 1, first)],
@@ -275,7 +286,7 @@ impl SweepMap {
         let mut legend = ends(held, Shade::Held, "held:", true);
         legend.extend(ends(broken, Shade::Broken, "not held:", false));
         legend.extend(void_entry(&tiles));
-        HeatMap { tiles, legend, ..self.plane(pair, self.by.clone()) }
+        HeatMap { tiles, legend, ..self.plane(pair, self.by_title()) }
     }
 
     /// What decides at the best point of each tile.
@@ -306,12 +317,13 @@ impl SweepMap {
         let shown = &varying[..varying.len().min(MOST_AXES - 1)];
         let mut axes: Vec<(String, [f64; 2])> =
             shown.iter().map(|&i| (axis_title(&self.variables[i].name), self.variables[i].range)).collect();
-        let values = self.some.iter().map(|p| p.value);
+        let unit = self.unit();
+        let values = self.some.iter().map(|p| unit.from_si(p.value));
         let range =
             values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
-        axes.push((self.by.clone(), range));
+        axes.push((self.by_title(), range));
         let line = |p: &super::MapPoint| {
-            (shown.iter().map(|&i| p.x[i]).chain([p.value]).collect::<Vec<f64>>(), p.held)
+            (shown.iter().map(|&i| p.x[i]).chain([unit.from_si(p.value)]).collect::<Vec<f64>>(), p.held)
         };
         Parallel { axes, lines: self.some.iter().map(line).collect() }
     }
