@@ -4,7 +4,8 @@
 use super::left_out::LeftOut;
 use super::under_load::{AtLoad, at};
 use crate::clutch::{Carrier, Clutch, Eccentricity, GivenSprag, Sharing, Standing};
-use crate::report::Unit;
+use crate::design::Design;
+use crate::report::{Unit, plain};
 use crate::sharing::{Asked, NotShared, Shared, Unlike};
 use crate::wedge::{StaticPoint, WedgeCurve};
 
@@ -101,7 +102,8 @@ impl Case<'_> {
         self.told(&format!("a sprag {} larger than the others", Unit::Micrometre.show(LARGER_M, 2)), does)
     }
 
-    fn eccentric(&self) -> String {
+    /// The sprags with the axes [`APART_M`] apart and held there.
+    fn apart(&self) -> Result<Shared, NotShared> {
         let eccentricity = Eccentricity {
             offset_m: APART_M,
             turning: false,
@@ -110,8 +112,12 @@ impl Case<'_> {
         };
         let mut clutch = self.clutch.clone();
         clutch.races.eccentricity = Some(eccentricity);
-        let shared = self.shared(&Unlike::new(&clutch, &Sharing::default(), self.curve, 0.0));
-        let does = shared.map(|shared| {
+        Unlike::new(&clutch, &Sharing::default(), self.curve, 0.0)
+            .carrying(Asked::Torque(self.point.torque_nm), 0.0)
+    }
+
+    fn eccentric(&self) -> String {
+        let does = self.apart().map_err(NotShared::words).map(|shared| {
             let largest = shared.shares().into_iter().fold(0.0, f64::max);
             format!(
                 ": the most pressed sprag carries {} {}; tilted tracks: not estimated",
@@ -119,9 +125,34 @@ impl Case<'_> {
                 at(self.point)
             )
         });
-        let apart = format!("axes {} apart and held there", Unit::Micrometre.show(APART_M, 2));
-        self.told(&apart, does)
+        self.told(&axes_apart(), does)
     }
+}
+
+/// The deviation of the axes, in words.
+fn axes_apart() -> String {
+    format!("axes {} apart and held there", Unit::Micrometre.show(APART_M, 2))
+}
+
+/// That the largest torque of the limits, which the concentric clutch carries, is more than its sprags carry where the axes part, in words.
+pub(super) fn ends_where_axes_part(design: &Design) -> Option<String> {
+    let clutch = &design.clutch;
+    if clutch.races.eccentricity.is_some() {
+        return None;
+    }
+    let curve = WedgeCurve::build(clutch, &clutch.profile().ok()?, 0.0).ok()?;
+    let point = curve.at_torque(design.limits.largest_torque_nm()?)?;
+    let why = Case { clutch: clutch.clone(), curve: &curve, point: &point }.apart().err()?;
+    matches!(why, NotShared::End(..)).then(|| {
+        format!(
+            "Warning: the verdict is of axes that coincide; with {} {} {}: `--set \"races.eccentricity={{offset_mm={}}}\"` asks for what is \
+             held then",
+            axes_apart(),
+            why.words(),
+            at(&point),
+            plain(Unit::Millimetre.from_si(APART_M), 3)
+        )
+    })
 }
 
 /// A share beside the mean, in words.
@@ -132,7 +163,6 @@ fn more(share: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::Design;
 
     fn costs(text: &str, torque_nm: f64) -> [f64; 3] {
         let clutch = Design::parse(text, "multi-arc").unwrap().clutch;

@@ -26,3 +26,13 @@ pub(super) fn inertia_from(design: &Design, race: &str) -> InertiaFrom {
         _ => InertiaFrom::File,
     }
 }
+
+/// That the drivetrain of the file is no part of an answer, and `options`, which say what turns with the races.
+pub(super) fn drivetrain_apart(design: &Design, options: &str) -> Option<String> {
+    let has = inputs(&design.source).iter().any(|input| input.path.starts_with("drivetrain"));
+    has.then(|| {
+        format!(
+            "The [[drivetrain]] of the file is no part of this answer, with all its inertias: {options} says what turns with a race"
+        )
+    })
+}

@@ -150,6 +150,17 @@ pub(super) fn named_row(rows: &Item, name: &str) -> Option<usize> {
     }
 }
 
+/// Whether the comment behind a value calls it a guess, as `new` does: another value is none.
+fn is_guess(value: &Value) -> bool {
+    let behind = value.decor().suffix().and_then(|suffix| suffix.as_str()).unwrap_or_default();
+    behind.trim_start_matches([' ', '\t', '#']).starts_with("guess")
+}
+
+/// A value without what stands around it.
+fn bare(value: &Value) -> String {
+    value.clone().decorated("", "").to_string()
+}
+
 /// Put a value under a key of `item` and keep the blanks and comments around the one that stood there.
 fn put(item: &mut Item, key: &str, mut new: Value) -> Option<()> {
     let (key, row) = match key.split_once('[') {
@@ -169,7 +180,11 @@ fn put(item: &mut Item, key: &str, mut new: Value) -> Option<()> {
             if let (Some(whole), true) = (new.as_integer(), old.is_float()) {
                 new = Value::from(whole as f64);
             }
+            let settled = old.as_value().is_some_and(|old| is_guess(old) && bare(old) != bare(&new));
             replace(old, new);
+            if let (true, Some(new)) = (settled, old.as_value_mut()) {
+                new.decor_mut().set_suffix("");
+            }
         }
         (_, None) => {
             table.insert(key, Item::Value(new));
@@ -218,6 +233,14 @@ mod tests {
         let new = with_setting(DESIGN, "limits.windup_nominal_deg", "2.5").unwrap();
         let design = Design::parse(&new, "new.toml").unwrap();
         assert_eq!(design.limits.windup_nominal_rad, Some(2.5_f64.to_radians()));
+    }
+
+    #[test]
+    fn a_guess_that_was_settled_is_none() {
+        let text = DESIGN.replace("width_mm = 6.0", "width_mm = 6.0  # guess: as another\n#");
+        let path = "races.width_mm";
+        assert!(with_setting(&text, path, "6.0").unwrap().contains("guess"));
+        assert!(!with_setting(&text, path, "8.0").unwrap().contains("guess"));
     }
 
     #[test]

@@ -86,6 +86,8 @@ pub enum Broken {
     Cage,
     /// First contact or the largest load asks for more static friction than there is.
     Friction,
+    /// First contact asks for more than the kinetic friction that a sliding contact has, where that is a limit.
+    Bite,
     /// A sprag rolls over on the edge of its flat below the largest torque, before the contact has left the edge: what it does then is not
     /// followed.
     Edge,
@@ -109,6 +111,10 @@ impl Broken {
             Self::Friction => {
                 ("friction", "the sprags ask for more static friction than there is: they slip")
             }
+            Self::Bite => (
+                "re-engagement",
+                "after overrun the sprags bite no more: they ask for more than the kinetic friction",
+            ),
             Self::Edge => ("edge", "the sprags roll over on the edge of their flat below the largest torque"),
             Self::Torque => {
                 ("torque", "a limit is reached below the largest torque of the life that it is held at")
@@ -504,6 +510,8 @@ impl March<'_> {
             Some(Broken::Edge)
         } else if asked > self.design.clutch.friction.static_ {
             Some(Broken::Friction)
+        } else if first_tan_omega > self.most_to_bite() {
+            Some(Broken::Bite)
         } else if !carries {
             Some(Broken::Torque)
         } else if keep.zip(state.lift_off_rad_s).is_some_and(|(keep, at)| at < keep) {
@@ -512,6 +520,12 @@ impl March<'_> {
             None
         };
         state
+    }
+
+    /// The most that first contact may ask for where sprags are to bite after overrun.
+    fn most_to_bite(&self) -> f64 {
+        let limit = self.rows.iter().find(|row| row.required && row.code() == "re-engagement");
+        limit.map_or(f64::INFINITY, |row| row.allowable)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::decider::Decider;
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
-use super::purpose::{CREST_S, DRIVE_HZ, STOP};
+use super::purpose::{CREST_S, DRIVE_HZ, STOP, overrun};
 use super::requirements::{NAMED, Requirements};
 use crate::clutch::Clutch;
 use crate::design::{BOX, Design, Draft, RESERVE, rpm};
@@ -119,8 +119,10 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
             short(wanted.bore_m * 1e3),
             short(wanted.torque_nm)
         );
-        draft.scenes =
-            wanted.purpose.map_or_else(Vec::new, |purpose| purpose.scenes(wanted, stiffness, inertia));
+        draft.scenes = match wanted.purpose {
+            Some(purpose) => purpose.scenes(wanted, stiffness, inertia),
+            None => overrun(wanted).into_iter().collect(),
+        };
         match sprung(&mut draft).and_then(|()| made(wanted, &mut draft, settings)) {
             Ok(done) => return Ok(done),
             Err(Decider::Refused { key, .. }) if key.starts_with("sprags.count") => {

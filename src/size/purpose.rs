@@ -186,7 +186,6 @@ impl Purpose {
         stiffness_nm_per_rad: f64,
         inner_inertia_kg_m2: f64,
     ) -> Vec<DraftScene> {
-        let [inner, outer] = wanted.overrun_rad_s.map(rpm);
         let mut scenes = Vec::new();
         if let Some(TorqueSwing { amplitude_nm: amplitude, frequency_hz, from }) = wanted.swing {
             // The outer race is light: its torque C_be goes through the clutch into the drive's inertia J but for what the
@@ -226,29 +225,29 @@ impl Purpose {
             ],
             checked: false,
         });
-        if inner != outer {
-            scenes.push(DraftScene {
-                scene: OVERRUN,
-                why: format!(
-                    "Steady overrun: inner race at {} rpm ({}), outer race at {} rpm ({}).",
-                    rounded(inner, 7),
-                    wanted.overrun_from[0],
-                    rounded(outer, 7),
-                    wanted.overrun_from[1]
-                ),
-                keys: vec![
-                    ("speed_rpm", outer, "outer race"),
-                    (
-                        "overrun_rpm",
-                        inner - outer,
-                        "by how much the inner race is faster; below 0 the outer one is",
-                    ),
-                ],
-                checked: false,
-            });
-        }
+        scenes.extend(overrun(wanted));
         scenes
     }
+}
+
+/// Steady overrun at the speeds that are asked for or taken; none where the races turn as one.
+pub(super) fn overrun(wanted: &Requirements) -> Option<DraftScene> {
+    let [inner, outer] = wanted.overrun_rad_s.map(rpm);
+    (inner != outer).then(|| DraftScene {
+        scene: OVERRUN,
+        why: format!(
+            "Steady overrun: inner race at {} rpm ({}), outer race at {} rpm ({}).",
+            rounded(inner, 7),
+            wanted.overrun_from[0],
+            rounded(outer, 7),
+            wanted.overrun_from[1]
+        ),
+        keys: vec![
+            ("speed_rpm", outer, "outer race"),
+            ("overrun_rpm", inner - outer, "by how much the inner race is faster; below 0 the outer one is"),
+        ],
+        checked: false,
+    })
 }
 
 #[cfg(test)]

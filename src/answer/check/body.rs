@@ -476,10 +476,11 @@ fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
     }
 }
 
-/// Whether the limit is not reached before the curve ends; the two limits that are the end itself are.
+/// Whether the limit is not reached before the curve ends; the one of the two that is the end itself is.
 pub fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> bool {
-    let is_end = r.limit.ends_curve && !r.off_centre;
-    !is_end && capacity_nm >= r.end_torque_nm.unwrap_or(end_torque_nm) * (1.0 - 1e-9)
+    let ends = r.limit.ends_curve && !r.off_centre;
+    let share = if ends { 1.0 + 1e-9 } else { 1.0 - 1e-9 };
+    capacity_nm >= r.end_torque_nm.unwrap_or(end_torque_nm) * share
 }
 
 /// Whether the limit has a capacity, and that lies at the end of the curve or beyond.

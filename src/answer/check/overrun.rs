@@ -330,8 +330,10 @@ fn warning(named: &[NamedOverrun], points: &[&OverrunRow], limits: &Limits, on_f
     let steady = || named.iter().filter(|n| n.lasts);
     let of_named = steady().map(|n| (n.growth_rate_per_s, n.swing_frequency_hz, n.speeds()));
     let of_points = points.iter().map(|p| {
-        let at =
-            format!("{:.0} rpm of the {} race, the fastest of the speeds looked at", p.speed_rpm, p.race);
+        let at = format!(
+            "{:.0} rpm of the {} race, where of the speeds looked at it grows fastest,",
+            p.speed_rpm, p.race
+        );
         (p.growth_rate_per_s, p.swing_frequency_hz, at)
     });
     let all: Vec<_> = if steady().next().is_some() { of_named.collect() } else { of_points.collect() };
@@ -509,7 +511,7 @@ impl OverrunSection {
         };
         match (self.outer_race_turns, lift_off_rpm) {
             (true, Some(rpm)) => {
-                format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm{why}")
+                format!("Sprags lift off the inner race at {rpm:.0} rpm of the outer race{why}")
             }
             (true, None) => format!("Sprags keep contact in overrun up to {searched_to_rpm:.0} rpm at least"),
             (false, Some(rpm)) => format!(

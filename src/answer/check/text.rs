@@ -1,6 +1,7 @@
 //! The margin check as text, and the sentences that its page has too.
 
 use super::{CheckAnswer, CheckBody, LETS_GO, NONE_SUFFICES, OVERLOADED, people_table};
+use crate::answer::alike::ends_where_axes_part;
 use crate::answer::simulation::unfelt;
 use crate::design::Design;
 use crate::life::INDENTING_PA;
@@ -198,8 +199,30 @@ fn no_row_of_overrun(design: &Design) -> Option<String> {
     })
 }
 
-/// What the rows do not say: a friction beyond any known, a film that needs no row, steps and histories that come after the end of their
-/// scene.
+/// Races whose stress with bending may be more than its mean may be: limits of two steels.
+fn laxer_with_bending(design: &Design) -> impl Iterator<Item = String> {
+    let l = &design.limits;
+    let inner = ("inner", l.hoop_inner_pa, l.hoop_inner_bending_pa);
+    let outer = ("outer", l.hoop_outer_pa, l.hoop_outer_bending_pa);
+    [inner, outer].into_iter().filter_map(|(race, mean, bending)| {
+        let (mean, bending) = mean.zip(bending).filter(|(mean, bending)| bending > mean)?;
+        let [mean, bending] = [mean, bending].map(|pa| Unit::Megapascal.show(pa, 4));
+        Some(format!(
+            "Note: hoop_{race}_bending_mpa allows {bending}, hoop_{race}_mpa, without the bending, {mean}: is one of them another steel's?"
+        ))
+    })
+}
+
+/// That what the design gives as tolerances is in none of the rows.
+fn tolerances_apart(design: &Design) -> Option<String> {
+    let given = design.tolerances.is_some();
+    given.then(|| {
+        "Note: these figures are of the sizes as drawn; [tolerances] enter by `--robust` of `optimize` and `evaluate`".to_owned()
+    })
+}
+
+/// What the rows do not say: a friction beyond any known, a film that needs no row, axes that part, tolerances, steps and histories that
+/// come after the end of their scene.
 fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
     let held = design.scenarios.iter().filter(|s| rows.iter().any(|r| r.scene.as_ref() == Some(&s.name)));
     let unfelt =
@@ -208,6 +231,9 @@ fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
         .into_iter()
         .chain(turning(design, rows))
         .chain(no_film_row(design, rows))
+        .chain(ends_where_axes_part(design))
+        .chain(tolerances_apart(design))
+        .chain(laxer_with_bending(design))
         .chain(unfelt)
         .collect()
 }

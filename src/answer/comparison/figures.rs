@@ -89,7 +89,7 @@ pub(super) const FIGURES: [Figure; 21] = [
     figure("hertz_outer_peak_mpa", "Hertz pressure B, peak", Unit::Megapascal, |s| {
         at_peak(s, |p| p.hertz_outer_pa)
     }),
-    figure("lift_off_rpm", "lift-off in overrun", Unit::Rpm, |s| s.lift_off_rad_s),
+    figure("lift_off_rpm", "outer race at lift-off", Unit::Rpm, |s| s.lift_off_rad_s),
     figure("mass_g", "mass, sprags and races", Unit::Gram, |s| Some(s.design.clutch.mass_kg())),
     figure("outside_diameter_mm", "outside diameter", Unit::Millimetre, |s| {
         Some(2.0 * s.design.clutch.races.outer_outside_radius_m)

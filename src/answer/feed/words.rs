@@ -1,7 +1,7 @@
 //! What strokes come to, in words: the verdict, which number to change, what the answer rests on.
 
 use super::{FeedAnswer, STEP};
-use crate::answer::inertia::{InertiaFrom, inertia_from};
+use crate::answer::inertia::{InertiaFrom, drivetrain_apart, inertia_from};
 use crate::answer::{Finding, Said};
 use crate::feed::Fed;
 use crate::report::{Unit, significant};
@@ -188,7 +188,8 @@ impl FeedAnswer<'_> {
             ),
             (_, None) => "Looked at are the frequencies of the table alone".to_owned(),
         };
-        vec![
+        let apart = drivetrain_apart(self.design, "--inertia");
+        let mut all = vec![
             between,
             format!(
                 "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m²{whose}, stands under a brake of {}",
@@ -207,6 +208,8 @@ impl FeedAnswer<'_> {
              less); runs on: turn of the fed race after the driving one has turned back; unlike: last stroke against the \
              one before; torque: largest, by the normal force; open: time of a stroke without contact at the inner race"
                 .to_owned(),
-        ]
+        ];
+        all.extend(apart);
+        all
     }
 }

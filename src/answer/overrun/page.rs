@@ -55,12 +55,12 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
         ),
         (
             half(lambda),
-            "Thickness of the film over the roughness of both surfaces; above 3 asperities hardly touch.",
+            "Thickness of the film where its pressure is largest over the roughness of both surfaces; above 3 asperities hardly touch.",
         ),
         (half(warmth), "Temperature of the film by the heat balance."),
     ]);
     page.heading("Film and drag").table(
-        "Regimes: I or V, the oil keeps its viscosity or thickens under pressure; R or E, the bodies stay round or flatten.",
+        "Regimes: I or V, the oil keeps its viscosity or thickens under pressure; R or E, the bodies stay round or flatten. Film: where the pressure is largest; between round bodies the least is 0.82 of it.",
         &answer.part(OverrunPart::Film),
     );
     page.heading("Heat").table(

@@ -3,7 +3,7 @@
 use super::{BorneSlip, ReengagementAnswer};
 use crate::answer::Said;
 use crate::answer::check::overrun::outer_turns;
-use crate::answer::inertia::{InertiaFrom, inertia_from};
+use crate::answer::inertia::{InertiaFrom, drivetrain_apart, inertia_from};
 use crate::dynamics::Stop;
 use crate::reengage::{Blow, SlipEnd};
 use crate::report::{Unit, significant};
@@ -54,7 +54,8 @@ impl ReengagementAnswer<'_> {
             true => "rigidly, the outer race is held".to_owned(),
             false => format!("{outer} kg m² with the outer one, both rigidly"),
         };
-        let mut all: Vec<String> = self.bare_ring().into_iter().collect();
+        let apart = drivetrain_apart(self.design, "--inner-inertia, --outer-inertia");
+        let mut all: Vec<String> = self.bare_ring().into_iter().chain(apart).collect();
         all.extend([
             format!(
                 "{} carried when the friction falls to {}; {inner} kg m² turn with the inner race, {outer}{}",
@@ -161,8 +162,8 @@ impl ReengagementAnswer<'_> {
         let nobody = !self.outer_given && !self.case.outer_held;
         (nobody && inertia_from(self.design, "outer") == InertiaFrom::Ring).then(|| {
             format!(
-                "The outer race turns as a bare ring, {} kg m²: the file names nothing that turns with it \
-                 (races.outer_inertia_kg_m2), and this decides the answer; --outer-inertia says what does, --outer-held that it is held",
+                "The outer race turns as a bare ring, {} kg m²: the file has no races.outer_inertia_kg_m2 \
+                 for what turns with it, and this decides the answer; --outer-inertia says what does, --outer-held that it is held",
                 significant(self.case.inertia_kg_m2[1], 4)
             )
         })

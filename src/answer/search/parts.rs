@@ -40,11 +40,11 @@ fn branch_table(branches: &[Branch]) -> Table {
 fn spread_table(made: &Robust) -> Table {
     Rows::of(&made.spreads)
         .text("code", "Margin", |s| s.code.as_str())
-        .number("nominal", "As drawn", Unit::One, 4, |s| s.nominal)
-        .number("worst", "Worst corner", Unit::One, 4, |s| s.worst)
-        .number("p01", "1 %", Unit::One, 4, |s| s.percentiles[0])
-        .number("p05", "5 %", Unit::One, 4, |s| s.percentiles[1])
-        .number("p50", "50 %", Unit::One, 4, |s| s.percentiles[2])
+        .number("nominal", "As drawn", Unit::Percent, 3, |s| s.nominal)
+        .number("worst", "Worst corner", Unit::Percent, 3, |s| s.worst)
+        .number("p01", "1 %", Unit::Percent, 3, |s| s.percentiles[0])
+        .number("p05", "5 %", Unit::Percent, 3, |s| s.percentiles[1])
+        .number("p50", "50 %", Unit::Percent, 3, |s| s.percentiles[2])
         .text("worst_at", "Worst at", |s| s.worst_at.as_str())
         .table()
 }

@@ -73,6 +73,20 @@ impl SearchReport<'_> {
         format!("{what}{}", if spare { self.hints.reserve } else { "" })
     }
 
+    /// Which of the two designs of a robust search all this is of; `None` where there is one.
+    fn as_drawn(&self) -> Option<String> {
+        let (within, robust) = (self.story().within.as_ref()?, self.story().robust.as_ref()?);
+        let what = match within.not_held.len() {
+            0 => "it holds every limit at every corner of [tolerances] too".to_owned(),
+            n => format!("{n} of its limits are not held at every corner of [tolerances]"),
+        };
+        let whose =
+            if robust.made.held() { "the robust design, which holds them all," } else { "the robust design" };
+        Some(format!(
+            "This is the best as drawn; {what}. Below, and in the file beside it, stands {whose} with what that costs"
+        ))
+    }
+
     /// Profiles before and after, to scale, one over the other.
     fn before_and_after(&self, page: &mut Page) {
         let Ok(after) = self.answer.design(self.design, "optimum") else { return };
@@ -141,9 +155,10 @@ impl Answer for SearchReport<'_> {
     fn text(&self, screen: Screen) -> String {
         let story = self.story();
         let mut out = format!(
-            "{}\n{}\n\nVariables\n{}",
+            "{}\n{}\n{}\nVariables\n{}",
             self.verdict(),
             self.holds_and_carries(),
+            self.as_drawn().map_or_else(String::new, |line| format!("{line}\n")),
             story.variable_table().to_text(screen)
         );
         out +=
@@ -167,12 +182,12 @@ impl Answer for SearchReport<'_> {
             None if self.beside.is_empty() => "No design written.\n".to_owned(),
             None => String::new(),
         };
-        let nearest = if self.written.is_none() {
-            ", the nearest design; it is no answer, its first line says why"
-        } else {
-            ""
+        let which = match (&self.written, &story.robust) {
+            (None, _) => ", the nearest design; it is no answer, its first line says why",
+            (Some(_), Some(_)) => ", the robust design",
+            _ => "",
         };
-        out += &self.beside.iter().map(|p| format!("Written: {}{nearest}\n", shown(p))).collect::<String>();
+        out += &self.beside.iter().map(|p| format!("Written: {}{which}\n", shown(p))).collect::<String>();
         out
     }
 
@@ -198,6 +213,9 @@ impl Answer for SearchReport<'_> {
         let mut page = begun("Optimisation", self.design, &provenance.command);
         page.verdict(story.feasible() && story.makeable() && story.not_robust().is_none(), &self.verdict());
         page.paragraph(&self.holds_and_carries());
+        if let Some(line) = self.as_drawn() {
+            page.paragraph(&line);
+        }
         if let Some(path) = &self.written {
             page.paragraph(&format!("New design: {path}"));
         }

@@ -205,8 +205,9 @@ impl Story {
         match broken.len() {
             0 => String::new(),
             n => format!(
-                " (the start did not hold {n} {}: {})",
+                " (the start did not hold {n} {}{}: {})",
                 if n == 1 { "limit" } else { "limits" },
+                if self.found.problem.reserve() > 0.0 { " with the reserve" } else { "" },
                 broken.join(", ")
             ),
         }

@@ -12,12 +12,14 @@ use super::left_out::{LeftOut, one_by_one};
 use super::{Finding, Said};
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
-use crate::report::{Page, Screen, Table};
+use crate::report::{Page, Screen, Table, Unit};
 use crate::sharing::{Bears, Loss, NotShared, Pops, Shared, Turn};
 use std::fmt;
 
 /// Harmonics of the tracks that are shown beside that of the sprags themselves.
 const HARMONICS: usize = 8;
+/// What bearings may bear of the force of one sprag without a word.
+const FEW: f64 = 0.1;
 /// Rows of a table of sprags that the text shows.
 const MOST_ROWS: usize = 24;
 
@@ -186,6 +188,30 @@ impl SharingAnswer<'_> {
     }
 }
 
+impl SharingAnswer<'_> {
+    /// What holding the axes takes, where nothing lets them give way.
+    fn axes_held(&self) -> Option<String> {
+        let eccentricity = self.design.clutch.races.eccentricity.map(|e| e.stiffness_n_per_m);
+        let given = self.design.sharing.as_ref()?.stiffness_n_per_m.or(eccentricity);
+        let lost = self.losses.iter().filter_map(|loss| loss.left.as_ref().ok());
+        let most_n = self
+            .turned
+            .iter()
+            .flatten()
+            .chain(lost)
+            .map(|s| s.radial_n[0].hypot(s.radial_n[1]))
+            .fold(0.0, f64::max);
+        let few_n = FEW * self.sprags.iter().map(|row| row.bears.normal_inner_n).fold(0.0, f64::max);
+        (given.unwrap_or(f64::INFINITY).is_infinite() && most_n > few_n).then(|| {
+            format!(
+                "The axes are held, whatever that takes: up to {} of their bearings, where sprags have failed too; bearings that give way \
+                 (sharing.bearing_stiffness_n_per_um) leave more to the sprags beside a failed one",
+                Unit::Newton.show(most_n, 3)
+            )
+        })
+    }
+}
+
 impl Said for SharingAnswer<'_> {
     type Body<'a>
         = SharingBody<'a>
@@ -230,6 +256,7 @@ impl Said for SharingAnswer<'_> {
                     .to_owned(),
             );
         }
+        all.extend(self.axes_held());
         all
     }
 

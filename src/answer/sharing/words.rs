@@ -48,8 +48,8 @@ impl SharingAnswer<'_> {
         }
         said += &self.losses_words();
         if let Some(peak_nm) = self.design.limits.peak_torque_nm.filter(|nm| *nm > self.torque_nm) {
-            said +=
-                &format!("; at peak torque, {}, `check` holds the worst", Unit::NewtonMetre.show(peak_nm, 4));
+            let peak = Unit::NewtonMetre.show(peak_nm, 4);
+            said += &format!("; peak torque, {peak}, is not looked at here: `check` says of it what is held");
         }
         said
     }

@@ -44,13 +44,19 @@ impl Model {
 }
 
 impl Train {
-    /// What its torques bring at most on either side, N m: peaks of histories and orders, the mean of gas.
+    /// What its torques bring at most on either side, N m: peaks of histories, the mean of gas. Orders swing about that, as an
+    /// excitation does about its preload: they count where nothing else acts.
     pub fn largest_nm(&self) -> f64 {
-        let (side, mut sum) = (self.sides(), [0.0; 2]);
-        for act in &self.acts {
-            sum[side[act.body]] += act.ratio.abs() * act.torque.largest_nm();
-        }
-        sum[0].max(sum[1])
+        let side = self.sides();
+        let most = |of_orders: bool| {
+            let mut sum = [0.0; 2];
+            for act in self.acts.iter().filter(|act| act.torque.is_order() == of_orders) {
+                sum[side[act.body]] += act.ratio.abs() * act.torque.largest_nm();
+            }
+            sum[0].max(sum[1])
+        };
+        let borne = most(false);
+        if borne > 0.0 { borne } else { most(true) }
     }
 
     /// `rates`: of the races at the start, rad/s; the bodies of a side turn as its race does.

@@ -59,6 +59,11 @@ impl Torque {
         }
     }
 
+    /// Whether it swings about 0.
+    pub(super) fn is_order(&self) -> bool {
+        matches!(self, Self::Order { .. })
+    }
+
     pub(super) fn course(&self) -> Option<&Course> {
         if let Self::History(course) = self { Some(course) } else { None }
     }
