@@ -32,7 +32,7 @@ pub(super) fn drivetrain_apart(design: &Design, options: &str) -> Option<String>
     let has = inputs(&design.source).iter().any(|input| input.path.starts_with("drivetrain"));
     has.then(|| {
         format!(
-            "The [[drivetrain]] of the file is no part of this answer, with all its inertias: {options} says what turns with a race"
+            "The [[drivetrain]] of the file is no part of this answer, with all its inertias: what turns with a race is said by {options}"
         )
     })
 }

@@ -133,8 +133,14 @@ impl Demand {
 /// What is left of a limit whose torque, or scene, goes beyond the end of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BeyondEnd {
-    /// As much as at the end, without a jump where the end passes the torque, as a search needs it.
-    AsAtEnd,
+    /// As a search needs it, without a jump where the end passes the torque: as much as at the end, at most `short`. For a verdict
+    /// it is at most what the torque `lacks`, end/torque - 1: [`Margin::as_checked`].
+    AsAtEnd {
+        /// Of the end of the profile what a search counts as short; infinite of all others.
+        short: f64,
+        /// end/torque - 1.
+        lacks: f64,
+    },
     /// At most what the torque lacks, end/torque - 1.
     Short(f64),
     /// Nothing: a scene goes there, or nothing was found up to the end.
@@ -213,15 +219,15 @@ impl Margin {
     pub fn left(&self) -> Left {
         match self.demand {
             Demand::Value(demand) => self.by_rule(demand),
-            Demand::Overloaded { at_end: Some(demand), beyond: BeyondEnd::AsAtEnd } => self.by_rule(demand),
             // Of a torque of which nothing is carried nothing is left.
-            Demand::Overloaded { at_end: Some(demand), beyond: BeyondEnd::Short(short) } if short > -1.0 => {
-                match self.by_rule(demand) {
-                    Left::Value(left) => Left::Value(left.min(short)),
-                    Left::All => Left::Value(short),
-                    lost => lost,
-                }
-            }
+            Demand::Overloaded {
+                at_end: Some(demand),
+                beyond: BeyondEnd::Short(short) | BeyondEnd::AsAtEnd { short, .. },
+            } if short > -1.0 => match self.by_rule(demand) {
+                Left::Value(left) => Left::Value(left.min(short)),
+                Left::All if short.is_finite() => Left::Value(short),
+                left => left,
+            },
             Demand::Unknown => Left::Unknown,
             Demand::Overloaded { .. }
             | Demand::MoreThan(_)
@@ -283,6 +289,16 @@ impl Margin {
     /// Whether a run met its limit of work, so that nothing is known.
     pub fn computed(&self) -> bool {
         !matches!(self.demand, Demand::NotComputed(_))
+    }
+
+    /// As `check` counts it where a search goes on without a jump.
+    pub fn as_checked(mut self) -> Self {
+        if let Demand::Overloaded { beyond: beyond @ BeyondEnd::AsAtEnd { .. }, .. } = &mut self.demand
+            && let BeyondEnd::AsAtEnd { lacks, .. } = *beyond
+        {
+            *beyond = BeyondEnd::Short(lacks);
+        }
+        self
     }
 
     /// Whether its scene or its torque goes beyond the end of the curve.

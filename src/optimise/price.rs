@@ -96,7 +96,9 @@ pub(super) fn prices(
 fn ratio_of(row: &Margin) -> Option<f64> {
     let ratio = match (row.limit.rule, row.demand) {
         (Rule::Ratio | Rule::Onset | Rule::Slip, Demand::Value(_)) => !row.demands_nothing(),
-        (Rule::Ratio, Demand::Overloaded { beyond: BeyondEnd::AsAtEnd, .. }) => !row.demands_nothing(),
+        (Rule::Ratio, Demand::Overloaded { beyond: BeyondEnd::AsAtEnd { short, .. }, .. }) => {
+            short.is_infinite() && !row.demands_nothing()
+        }
         (Rule::Reserve, Demand::Value(demand)) => demand > 0.0,
         // 1 - demand/allowable is that too at the limit, to the square of the margin.
         (Rule::Share, Demand::Value(_)) => row.margin().abs() <= 1e-3,

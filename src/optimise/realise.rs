@@ -10,7 +10,7 @@ use super::influence::Influence;
 use super::journal::SearchRun;
 use super::outcome::Outcome;
 use super::problem::{Assessment, ClutchProblem};
-use super::search::{NoSearch, Search, Variable, search_problem};
+use super::search::{NoSearch, Search, Variable, as_checked, search_problem};
 use super::settings::Settings;
 use super::smooth::ROOM as ROOM_LEFT;
 use super::starts::SearchMethod;
@@ -181,11 +181,11 @@ fn standing(found: &Search, problem: &ClutchProblem, joint: &Optimize) -> Result
     let evaluation = problem.evaluation(&as_searched);
     Ok(Search {
         names: problem.names(&as_searched),
-        start: best.rows.clone(),
+        start: as_checked(best.rows.clone()),
         objective: (after, after),
         objective_error: (after - before).abs(),
-        best: best.rows,
-        as_searched: as_searched.rows,
+        best: as_checked(best.rows),
+        as_searched: as_checked(as_searched.rows),
         influence: Influence::default(),
         continuous: Vec::new(),
         sensitivity: None,

@@ -315,9 +315,9 @@ pub fn search_problem(
         names: problem.names(&as_searched),
         objective: (value(&start), value(&best)),
         objective_error: (value(&best) - value(&as_searched)).abs(),
-        start: start.rows,
-        best: best.rows,
-        as_searched: as_searched.rows,
+        start: as_checked(start.rows),
+        best: as_checked(best.rows),
+        as_searched: as_checked(as_searched.rows),
         influence: table,
         continuous,
         sensitivity,
@@ -342,4 +342,9 @@ fn starts(variables: &[Variable], names: &[String]) -> Vec<f64> {
 fn bounds(variables: &[Variable], names: &[String]) -> (Vec<f64>, Vec<f64>) {
     let of = names.iter().filter_map(|n| variables.iter().find(|v| v.name == *n));
     of.map(|v| (v.min, v.max)).unzip()
+}
+
+/// Margins as `check` has them, for whoever reads them.
+pub(super) fn as_checked(rows: Vec<Margin>) -> Vec<Margin> {
+    rows.into_iter().map(Margin::as_checked).collect()
 }

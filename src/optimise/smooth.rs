@@ -28,10 +28,11 @@ pub(super) fn load_rows(
             return;
         }
         for row in rows {
-            let Demand::Overloaded { at_end, .. } = row.demand else { continue };
+            let Demand::Overloaded { at_end, beyond } = row.demand else { continue };
+            let BeyondEnd::Short(lacks) = beyond else { continue };
             let ends = row.limit == &END_OF_PROFILE;
-            let shortfall = limits.peak_torque_nm.filter(|_| ends).map(|torque| profile_short(state, torque));
-            let beyond = shortfall.map_or(BeyondEnd::AsAtEnd, BeyondEnd::Short);
+            let short = limits.peak_torque_nm.filter(|_| ends).map(|torque| profile_short(state, torque));
+            let beyond = BeyondEnd::AsAtEnd { short: short.unwrap_or(f64::INFINITY), lacks };
             row.demand = Demand::Overloaded { at_end, beyond };
         }
     })

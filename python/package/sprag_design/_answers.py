@@ -173,7 +173,7 @@ class Margin(_Shown):
     unit: str
     """Unit of demand and allowable; ``1`` of a pure number."""
     margin: float
-    """Margin as a number; 0 or more is held."""
+    """Margin as a number; 0 or more is held. Of slip rows it is against the wanted slip margin: people read ``slip_margin``."""
     torque_capacity_nm: float | None
     """Torque at which the limit would be reached, N m, where it depends on torque."""
     capacity_beyond_end: bool

@@ -45,7 +45,7 @@ pub struct CheckRow {
     pub allowable: Option<f64>,
     /// Unit of demand and allowable; `1` of a pure number.
     pub unit: &'static str,
-    /// Margin as a number; 0 or more is held.
+    /// Margin as a number; 0 or more is held. Of slip rows it is against the wanted slip margin: people read `slip_margin`.
     pub margin: f64,
     /// Torque at which the limit would be reached, N m, where it depends on torque.
     pub torque_capacity_nm: Option<f64>,

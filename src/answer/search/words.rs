@@ -139,7 +139,7 @@ impl Story {
                     return sentence;
                 }
                 return format!(
-                    "infeasible: no design within the bounds holds every limit; the least violation is \
+                    "infeasible: no design was found within the bounds that holds every limit; the least violation is \
                      {} (by so much the worst margin of the nearest design is too small), stopped by {}",
                     Unit::Percent.show(*least_violation, 2),
                     names.join(" against ")
