@@ -18,6 +18,9 @@ pub struct WorkLimit {
     pub most_steps: u64,
     /// Changes of mode of one run.
     pub most_events: u64,
+    /// Steps of one run, and half as many changes of mode, of a case that met these limits without a verdict and is run once
+    /// more; `None`: none is.
+    pub most_steps_again: Option<u64>,
     /// Ends the runs.
     pub follow: Follow,
 }
@@ -25,7 +28,13 @@ pub struct WorkLimit {
 impl Default for WorkLimit {
     /// A tenth of the command's own limit of steps: most cases need a thousandth of it.
     fn default() -> Self {
-        Self { tolerance: 1e-6, most_steps: 20_000, most_events: 5_000, follow: Follow::nobody() }
+        Self {
+            tolerance: 1e-6,
+            most_steps: 20_000,
+            most_events: 5_000,
+            most_steps_again: None,
+            follow: Follow::nobody(),
+        }
     }
 }
 
@@ -61,6 +70,11 @@ impl CaseEnd {
             Self::Verdict(v) => Some(v),
             _ => None,
         }
+    }
+
+    /// Whether there was a start to run from.
+    pub fn starts(self) -> bool {
+        !matches!(self, Self::NotCarried | Self::NoCurve)
     }
 
     /// Whether the case met its limit of work. Numbers that are none would be a fault of the program, not a matter of work:
@@ -129,6 +143,8 @@ pub struct Judged {
     pub rhs_evaluations: u64,
     /// Fastest rate in the motion where the limit of steps was met, rad/s.
     pub fastest_rad_s: Option<f64>,
+    /// Whether this is what it came to when it was run once more ([`WorkLimit::most_steps_again`]).
+    pub again: bool,
 }
 
 impl Judged {
@@ -154,6 +170,15 @@ pub fn map(clutch: &Clutch, cases: &[Case], limit: &WorkLimit) -> Vec<Judged> {
 
 /// One case.
 pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
+    let found = judge_within(clutch, case, limit);
+    let Some(most_steps) = limit.most_steps_again.filter(|_| found.outcomes[0].met_a_limit()) else {
+        return found;
+    };
+    let more = WorkLimit { most_steps, most_events: most_steps / 2, ..limit.clone() };
+    Judged { again: true, ..judge_within(clutch, case, &more) }
+}
+
+fn judge_within(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
     let scenario = case.scenario(clutch);
     let go = |tolerance: f64| {
         let settings = Settings {
@@ -182,6 +207,7 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
         steps: found().map(|s| s.steps).sum(),
         rhs_evaluations: found().map(|s| s.rhs_evaluations).sum(),
         fastest_rad_s: first.and_then(|s| s.fast_motion).map(|f| f.rate_rad_s),
+        again: false,
     }
 }
 
@@ -252,6 +278,7 @@ mod tests {
             steps: 0,
             rhs_evaluations: 0,
             fastest_rad_s: None,
+            again: false,
         };
         let [sticks, slips, near] =
             [Verdict::Sticks, Verdict::SlipsEngaging, Verdict::AtThreshold].map(CaseEnd::Verdict);

@@ -14,7 +14,7 @@ const EXAMPLES: &str = "\
 Examples:
   sprag-design accuracy designs/huang2017-multi-arc.toml --report accuracy.html
   sprag-design accuracy designs/huang2017-multi-arc.toml --scenario high-10 --min-step 1e-5 --cases 0
-  sprag-design accuracy designs/huang2017-multi-arc.toml --cases 2000 --seed 7 --json
+  sprag-design accuracy designs/huang2017-multi-arc.toml --cases 2000 --seed 7 --max-steps 200000 --json
 
 Every case of the map is made by the seed and its number alone; the map is the same for any number of threads.
 Times are medians of repeated runs of one thread on this machine and are never the same twice; beside other programs
@@ -23,6 +23,9 @@ Ctrl-C writes the scenes and cases that are finished and ends with 130.";
 
 /// Most cases that one command takes on: some hours.
 const MOST_CASES: i64 = 100_000;
+
+/// Fewer steps of a run would be none more.
+const MORE_STEPS: u64 = 20_001;
 
 /// Arguments of `accuracy`.
 #[derive(Debug, Clone, Args)]
@@ -40,6 +43,9 @@ pub struct AccuracyArgs {
     /// Seed of the stability map
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub seed: u64,
+    /// Most steps of a run of the map, and half as many changes of mode, where 20000 and 5000 led to no verdict [default: those are not run again]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(MORE_STEPS..))]
+    pub max_steps: Option<u64>,
     /// Smallest step of the published scheme, s, 1e-8 to 1e-4
     #[arg(long, value_name = "S", default_value_t = 1e-7, allow_hyphen_values = true, value_parser = positive)]
     pub min_step: f64,
@@ -92,5 +98,6 @@ fn study<'d>(
     let study = AccuracyStudy::of(design, scenarios, &settings);
     drop(progress);
     let progress = context.progress("stability map", "cases", Some(u64::from(args.cases)));
-    study.with_map(args.seed, args.cases as usize, &progress.told_by(&context.follow))
+    let follow = progress.told_by(&context.follow);
+    study.with_map(args.seed, args.cases as usize, args.max_steps, &follow)
 }

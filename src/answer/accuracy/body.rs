@@ -124,8 +124,19 @@ pub struct CaseBody {
     pub rhs_evaluations: u64,
     /// Fastest rate in the motion where the limit of steps was met, rad/s.
     pub fastest_rad_per_s: Option<f64>,
+    /// Whether it was run once more, within more steps.
+    pub again: bool,
     /// What it is made of, in the units of the keys.
     pub parameters: Keyed<f64>,
+}
+
+/// Cases of the map that a drive could have.
+#[derive(Debug, Clone, Copy, serde::Serialize)]
+pub struct OfDrives {
+    /// How many start.
+    pub start: usize,
+    /// How many of them end without a verdict at a limit of work.
+    pub at_a_limit: usize,
 }
 
 /// The stability map.
@@ -141,6 +152,10 @@ pub struct StabilityBody {
     pub most_steps_per_run: u64,
     /// Most changes of mode of a run.
     pub most_events_per_run: u64,
+    /// Most steps of a run of a case that met these limits without a verdict and was run once more; none: none was.
+    pub most_steps_again: Option<u64>,
+    /// Cases that a drive could have.
+    pub of_drives: OfDrives,
     /// Wall time, s.
     pub run_time_s: f64,
     /// How many cases have each outcome.
@@ -210,12 +225,15 @@ impl StabilityBody {
         let most = |f: fn(&Judged) -> u64| study.cases.iter().map(f).max();
         let those =
             |is: fn(&Judged) -> bool| study.cases.iter().filter(|c| is(c)).map(CaseBody::of).collect();
+        let [start, at_a_limit] = study.of_drives();
         Self {
             seed: study.seed,
             cases: study.cases.len(),
             tolerance: study.limit.tolerance,
             most_steps_per_run: study.limit.most_steps,
             most_events_per_run: study.limit.most_events,
+            most_steps_again: study.limit.most_steps_again,
+            of_drives: OfDrives { start, at_a_limit },
             run_time_s: study.map_time_s,
             outcomes: Keyed(map::by_outcome(study).into_iter().map(|(name, c)| (name, c.len())).collect()),
             not_converged: study.cases.iter().filter(|c| !c.converged).count(),
@@ -242,6 +260,7 @@ impl CaseBody {
             events: c.events,
             rhs_evaluations: c.rhs_evaluations,
             fastest_rad_per_s: c.fastest_rad_s,
+            again: c.again,
             parameters: Keyed(PARAMETERS.iter().zip(c.case.values).map(|(p, v)| (p.key, v)).collect()),
         }
     }

@@ -32,11 +32,19 @@ pub(super) fn by_outcome<'s>(study: &'s AccuracyStudy<'_>) -> Vec<(&'static str,
 pub(super) fn summary(study: &AccuracyStudy<'_>) -> String {
     let count = |f: fn(&Judged) -> bool| study.cases.iter().filter(|c| f(c)).count();
     let halved = Halved::of(&study.cases);
-    let ran = count(|c| !matches!(c.outcomes[0], CaseEnd::NotCarried | CaseEnd::NoCurve));
+    let ran = count(|c| c.outcomes[0].starts());
+    let again = study.limit.most_steps_again.map_or(String::new(), |most_steps| {
+        let [all, settled] = [count(|c| c.again), count(|c| c.again && c.outcomes[0].verdict().is_some())];
+        format!(
+            " Those that met these limits without a verdict, {all}, were run once more within {most_steps} steps and {} changes: \
+             {settled} of them have one so.",
+            most_steps / 2
+        )
+    });
     format!(
         "{} cases (seed {}), each run at a tolerance of {:.0e} and at half of it within {} steps and {} changes of mode \
          a run: {ran} start, of which {} end with a verdict, {} at a limit. {}; {} verdicts become at-threshold there, or were \
-         it. {} answers hold a number that is not finite.",
+         it. {} answers hold a number that is not finite.{again} {}.",
         study.cases.len(),
         study.seed,
         study.limit.tolerance,
@@ -47,6 +55,17 @@ pub(super) fn summary(study: &AccuracyStudy<'_>) -> String {
         at_half(&halved),
         halved.at_threshold,
         count(|c| c.not_finite.is_some()),
+        drives(study),
+    )
+}
+
+/// What the map says of drives.
+pub(super) fn drives(study: &AccuracyStudy<'_>) -> String {
+    let [start, limit] = study.of_drives();
+    format!(
+        "{start} of the cases that start could be of a drive (races no lighter than their bare rings, springs that take no more than \
+         a tenth of the torque at the end of the curve, an abutment on which the outer race swings no faster than it breathes \
+         as a ring): {limit} of them at a limit"
     )
 }
 

@@ -11,7 +11,7 @@ pub use body::AccuracyBody;
 use super::left_out::left_out_of;
 use super::{Answer, Envelope, Finding, Provenance};
 use crate::accuracy::{
-    Judged, Precision, PrecisionSettings, WorkLimit, cases, map as stability_map, precision,
+    CaseEnd, Drives, Judged, Precision, PrecisionSettings, WorkLimit, cases, map as stability_map, precision,
 };
 use crate::clutch::Scenario;
 use crate::design::Design;
@@ -82,13 +82,23 @@ impl<'d> AccuracyStudy<'d> {
         }
     }
 
-    /// The same with a stability map of `count` cases, each made by `seed` and its number; `follow` is told of each.
-    pub fn with_map(self, seed: u64, count: usize, follow: &Follow) -> Self {
-        let limit = WorkLimit { follow: follow.clone(), ..WorkLimit::default() };
+    /// The same with a stability map of `count` cases, each made by `seed` and its number; `follow` is told of each. `most_steps_again`:
+    /// as [`WorkLimit::most_steps_again`].
+    pub fn with_map(self, seed: u64, count: usize, most_steps_again: Option<u64>, follow: &Follow) -> Self {
+        let limit = WorkLimit { most_steps_again, follow: follow.clone(), ..WorkLimit::default() };
         let started = Instant::now();
         let cases = stability_map(&self.design.clutch, &cases(seed, count), &limit);
         let map_time_s = started.elapsed().as_secs_f64();
         Self { seed, limit, cases, map_time_s, interrupted: follow.stopped(), ..self }
+    }
+
+    /// Of the cases that a drive could have: how many start, and how many of them end without a verdict at a limit of work.
+    fn of_drives(&self) -> [usize; 2] {
+        let Some(drives) = Drives::of(&self.design.clutch) else { return [0; 2] };
+        let count = |of: fn(CaseEnd) -> bool| {
+            self.cases.iter().filter(|c| drives.have(&c.case) && of(c.outcomes[0])).count()
+        };
+        [count(CaseEnd::starts), count(CaseEnd::met_a_limit)]
     }
 }
 

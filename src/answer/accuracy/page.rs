@@ -83,12 +83,16 @@ pub(super) fn verdict(study: &AccuracyStudy<'_>) -> (bool, String) {
         String::new()
     } else {
         let count = |f: fn(&Judged) -> bool| study.cases.iter().filter(|c| f(c)).count();
+        let [of_drives, at_a_limit] = study.of_drives();
         format!(
-            "; in the map of {} cases {}; {} hold a number that is not finite, {} end without a verdict at their limit of work",
+            "; in the map of {} cases {}; {} hold a number that is not finite, {} end without a verdict at their limit of work, \
+             {} of the {} that could be of a drive",
             study.cases.len(),
             map::at_half(&Halved::of(&study.cases)),
             count(|c| c.not_finite.is_some()),
             count(|c| c.outcomes[0].met_a_limit()),
+            at_a_limit,
+            of_drives,
         )
     };
     let line = format!(
