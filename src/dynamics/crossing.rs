@@ -31,7 +31,7 @@ pub(super) fn cross(
         return tied(model, before, after, rates, [inner, outer], [held_i, held_e]);
     }
     let races = Matrix2::new(model.inner_inertia_kg_m2, 0.0, 0.0, model.outer_inertia_kg_m2);
-    cross_between(model, 1.0, mode_after, before, after, rates, &races)
+    cross_between(model, 1.0, mode_after, [before, after], rates, &races, [1.0; 2])
 }
 
 /// Which contacts roll in `mode`: inner, outer.
@@ -40,22 +40,22 @@ fn rolling(mode: &Mode) -> [bool; 2] {
 }
 
 /// The same of `times` as many sprags between races that move freely and whose inertia is `races`, kg m^2, with what turns
-/// along with them.
+/// along with them. `along`: what phi' counts in the rolling of A and B, 1 where the axes meet.
 pub(super) fn cross_between(
     model: &Model,
     times: f64,
     mode_after: &Mode,
-    before: &WedgePoint,
-    after: &WedgePoint,
+    [before, after]: [&WedgePoint; 2],
     rates: [f64; 4],
     races: &Matrix2<f64>,
+    along: [f64; 2],
 ) -> [f64; 4] {
     let [inner, outer] = rolling(mode_after);
     if !inner && !outer {
         return rates;
     }
-    let (m_before, coupling_before, _) = reduced(model, times, before, inner, outer, races);
-    let (m_after, coupling_after, rest) = reduced(model, times, after, inner, outer, races);
+    let of = |p: &WedgePoint| reduced(model, times, p, [inner, outer], races, along);
+    let ((m_before, coupling_before, _), (m_after, coupling_after, rest)) = (of(before), of(after));
     let Some(rest_inverse) = rest.try_inverse() else { return rates };
     let alpha_rate = scaled(rates[0], m_before, m_after);
     // Momenta of (phi, free races) are kept: M_rr w_r + M_ra alpha' = const.
@@ -65,8 +65,8 @@ pub(super) fn cross_between(
     [
         alpha_rate,
         w[0],
-        if inner { w[0] - after.rho_i * alpha_rate } else { w[1] },
-        if outer { w[0] + after.rho_e * alpha_rate } else { w[2] },
+        if inner { along[0] * w[0] - after.rho_i * alpha_rate } else { w[1] },
+        if outer { along[1] * w[0] + after.rho_e * alpha_rate } else { w[2] },
     ]
 }
 
@@ -118,9 +118,9 @@ fn reduced(
     model: &Model,
     times: f64,
     p: &WedgePoint,
-    inner: bool,
-    outer: bool,
+    [inner, outer]: [bool; 2],
     races: &Matrix2<f64>,
+    [e_i, e_e]: [f64; 2],
 ) -> (f64, Vector3<f64>, Matrix3<f64>) {
     let n = times * model.count;
     let i_g = n * model.inertia_kg_m2;
@@ -131,30 +131,30 @@ fn reduced(
     let mut coupling = Vector3::zeros();
     if inner {
         aa += i_i * p.rho_i * p.rho_i;
-        ap -= i_i * p.rho_i;
-        pp += i_i;
+        ap -= i_i * p.rho_i * e_i;
+        pp += i_i * e_i * e_i;
         rest[(1, 1)] = 1.0;
     }
     if outer {
         aa += i_e * p.rho_e * p.rho_e;
-        ap += i_e * p.rho_e;
-        pp += i_e;
+        ap += i_e * p.rho_e * e_e;
+        pp += i_e * e_e * e_e;
         rest[(2, 2)] = 1.0;
     }
     // What turns along with both races ties them.
     match (inner, outer) {
         (true, true) => {
             aa -= 2.0 * both * p.rho_i * p.rho_e;
-            ap += both * (p.rho_e - p.rho_i);
-            pp += 2.0 * both;
+            ap += both * (p.rho_e * e_i - p.rho_i * e_e);
+            pp += 2.0 * both * e_i * e_e;
         }
         (true, false) => {
             coupling[2] = -both * p.rho_i;
-            (rest[(0, 2)], rest[(2, 0)]) = (both, both);
+            (rest[(0, 2)], rest[(2, 0)]) = (both * e_i, both * e_i);
         }
         (false, true) => {
             coupling[1] = both * p.rho_e;
-            (rest[(0, 1)], rest[(1, 0)]) = (both, both);
+            (rest[(0, 1)], rest[(1, 0)]) = (both * e_e, both * e_e);
         }
         (false, false) => (rest[(1, 2)], rest[(2, 1)]) = (both, both),
     }

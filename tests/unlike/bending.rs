@@ -125,10 +125,10 @@ fn unlike_sprags_between_races_that_bend_balance_their_energy() {
     }
 }
 
-/// Axes on bearings, and races that bend press sprags below their own first contact: what the axis turns them by goes on there. It left 5e-4;
-/// 2e-6 are left yet; why is not known.
+/// Axes on bearings, and races that bend: sprags are pressed below their own first contact, and lose and find contact far beyond it. What is
+/// left is the steps' own and goes with their tolerance.
 #[test]
-fn a_sprag_that_is_pressed_below_first_contact_between_axes_that_give_way_keeps_its_energy() {
+fn sprags_that_touch_away_from_first_contact_between_axes_that_give_way_keep_their_energy() {
     let mut scene = scene("huang2017-multi-arc", "low-10-mu082");
     lasting(&mut scene, 0.004);
     let sharing = Sharing {
@@ -142,11 +142,16 @@ fn a_sprag_that_is_pressed_below_first_contact_between_axes_that_give_way_keeps_
         ..Sharing::default()
     };
     let many = Many::bending(&scene, &sharing).unwrap();
-    let all = many.run(&Settings::default(), 1e-9, 0);
-    let left = all.residual_j / all.through_j;
-    println!("{:?}, {left:.1e} of {:.3} J, {} changes", all.stop, all.through_j, all.events);
-    assert_eq!((all.stop, all.inconsistent_choices), (Stop::Finished, 0));
-    assert!(left.abs() < 1e-5, "{left:e}");
+    for (tolerance, most) in [(1e-8, 1e-6), (1e-9, 1e-8), (1e-10, 1e-9)] {
+        let all = many.run(&Settings::default(), tolerance, 0);
+        let left = all.residual_j / all.through_j;
+        println!(
+            "{tolerance:e} {:?}, {left:.1e} of {:.3} J, {} changes",
+            all.stop, all.through_j, all.events
+        );
+        assert_eq!((all.stop, all.inconsistent_choices), (Stop::Finished, 0));
+        assert!(left.abs() < most, "{left:e}");
+    }
 }
 
 /// By `tests/reference/bending.py`: three sprags of which neither places nor sizes are even, shares of 0.53 to 1.32 where round races have 1. It closes

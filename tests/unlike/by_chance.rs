@@ -11,32 +11,35 @@ use std::sync::atomic::{AtomicU64, Ordering};
 const SEED: u64 = 23;
 /// Scenes; more by `SPRAGS_SCENES`: `SPRAGS_SCENES=5000 cargo test --release --test unlike by_chance`.
 const SCENES: u64 = 200;
-/// What an energy balance may leave of what went through at a tolerance of 1e-9. Of 1500 scenes three leave more, up to 9.7e-6: between bent
-/// races a sprag then lifts off far below its own first contact.
-const LEFT: f64 = 1e-6;
+/// What an energy balance may leave of what went through at a tolerance of 1e-9.
+const LEFT: f64 = 1e-7;
 /// Where less than this goes through, J, nothing has happened: sprags and races hold some 0.1 J.
 const NOTHING_J: f64 = 1e-6;
 
-struct Chance(fastrand::Rng);
+pub struct Chance(pub fastrand::Rng);
 
 impl Chance {
-    fn between(&mut self, from: f64, until: f64) -> f64 {
+    pub fn new(seed: u64) -> Self {
+        Self(fastrand::Rng::with_seed(seed))
+    }
+
+    pub fn between(&mut self, from: f64, until: f64) -> f64 {
         from + (until - from) * self.0.f64()
     }
 
-    fn one_of<T: Copy>(&mut self, all: &[T]) -> T {
+    pub fn one_of<T: Copy>(&mut self, all: &[T]) -> T {
         all[self.0.usize(..all.len())]
     }
 
     /// `value` in half of all cases, else nothing.
-    fn perhaps(&mut self, value: f64) -> f64 {
+    pub fn perhaps(&mut self, value: f64) -> f64 {
         if self.0.bool() { self.0.f64() * value } else { 0.0 }
     }
 }
 
 /// A scene, its sprags, and whether its races bend.
 fn drawn(seed: u64) -> (Scenario, Sharing, bool) {
-    let mut by = Chance(fastrand::Rng::with_seed(seed));
+    let mut by = Chance::new(seed);
     let (file, name) = by.one_of(&[
         ("huang2017-multi-arc", "high-10"),
         ("huang2017-multi-arc", "low-10-mu082"),
@@ -109,7 +112,7 @@ fn figures(run: &ManyRun) -> Vec<f64> {
     all
 }
 
-fn given(name: &str, otherwise: u64) -> u64 {
+pub fn given(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise)
 }
 
@@ -170,4 +173,15 @@ fn scenes_drawn_by_chance_keep_their_energy_and_do_not_depend_on_threads() {
     // Some cannot be: sprags that do not touch or carry.
     assert!(10 * ran > 7 * scenes && 10 * finished > 5 * scenes);
     assert!(changes > 10 * scenes);
+}
+
+/// Of 1500 scenes those in which most can be made or lost: contact is lost and found far from first contact (375, 1401), so between axes that
+/// give way (1410), sprags are pressed far below their first contact (758, 1259) and cross junctions where the axes lie apart (1038, 1371).
+#[test]
+fn scenes_that_try_the_balance_most_keep_their_energy() {
+    for scene in [375, 758, 1038, 1259, 1371, 1401, 1410] {
+        let (how, left, events) = found((SEED << 32) + scene, None);
+        println!("scene {scene}: {how}, {events} changes, energy {left:.1e}");
+        assert!(left < LEFT, "scene {scene}: {left:e}, {how}");
+    }
 }

@@ -8,6 +8,7 @@ mod by_chance;
 mod cost;
 mod driven_cage;
 mod each_sprag;
+mod junctions;
 mod off_centre;
 mod sharing;
 mod turning_track;

@@ -24,6 +24,8 @@ pub struct SpragApproach {
     series: [f64; SERIES],
     /// D' at first contact, m/rad, and at the end of the last place.
     pub(super) slopes: [f64; 2],
+    /// D' below first contact, that of the geometry as it is read there, m/rad.
+    level: f64,
     /// D/x and (D/x)^(1/q) over s = x^(1/q) on the first arc, x = alpha - alpha_0; D over alpha on the others, and nothing.
     pub(super) by_alpha: Vec<Pieces<2>>,
     /// Where arcs end, m.
@@ -75,6 +77,7 @@ impl SpragApproach {
             exponent: q,
             series: series(1.0 / q),
             slopes: [near; 2],
+            level: at(0, alpha0),
             by_alpha: vec![Pieces::of_all(&first.ok()?)],
             ends: Vec::new(),
             begins: [0.0; 2],
@@ -143,7 +146,7 @@ impl SpragApproach {
         }
         let x = alpha - self.alpha0;
         if x <= NEAR_RAD {
-            return (self.slopes[0] * x, None);
+            return (if x < 0.0 { self.level } else { self.slopes[0] } * x, None);
         }
         let s = self.root(x, last);
         let [part, root] = self.by_alpha[0].at(s);

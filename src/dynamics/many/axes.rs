@@ -244,13 +244,18 @@ impl SpragGroup {
         let offset = axes.offset_m(t, [y[0], y[1]]);
         let offset_m = rotated(offset, back);
         let axis_m = rotated([offset[0] + shift[0], offset[1] + shift[1]], back);
-        // An open sprag is where it would touch.
-        let alpha = if arc.is_some() { own[0] } else { self.model.curve.first_contact_rad() };
+        let curve = &self.model.curve;
+        let from = curve.first_contact_rad() + STRAIGHT_RAD;
+        // Between races that bend contact is lost and found away from first contact: what the axis turns a sprag by goes on with it, or
+        // rates, and energy, would jump there. Between round ones an open sprag is where it would touch.
+        let (arc, alpha) = match (arc, more_n) {
+            (None, Some(_)) => (Some(curve.arc_at(own[0]).min(curve.arc_count() - 1)), own[0]),
+            (None, None) => (None, curve.first_contact_rad()),
+            (arc, _) => (arc, own[0]),
+        };
         let [out, out_slope, out_bend] = at.out_m(own[1], y[0]);
         let seen_m = [axis_m[0] + out, axis_m[1]];
-        let from = self.model.curve.first_contact_rad() + STRAIGHT_RAD;
         let mut turns = match arc {
-            // Between races that bend a sprag is pressed below its first contact too.
             Some(0) if more_n.is_some() && alpha < from => at.turns.straight_on(from, alpha, seen_m),
             _ => at.turns.at(arc.unwrap_or(0), alpha, seen_m),
         };

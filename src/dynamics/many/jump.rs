@@ -21,6 +21,11 @@ struct TurnsAlong {
     sees: Option<Matrix2x4<f64>>,
 }
 
+/// What phi' counts in the rolling of A and B.
+fn along(sight: &Sight) -> [f64; 2] {
+    sight.axes.as_ref().map_or([1.0; 2], |axes| axes.along)
+}
+
 impl<const N: usize> Going<'_, N> {
     /// Inertia of races (kg m^2) and axis (kg) with all groups but `those`: a sprag that rolls on both races turns along, one that rolls on
     /// one alone keeps the momentum of alpha, one that a cage carries goes with the inner race.
@@ -63,27 +68,29 @@ impl<const N: usize> Going<'_, N> {
         }
         let inner = motion.mode.inner == Grip::Stick && motion.mode.place != Place::Open;
         let outer = motion.mode.outer == Grip::Stick;
-        // One race alone: phi' = theta' + s alpha', s its rolling ratio with its sign.
-        let one = |s: f64| {
-            let along = i * (1.0 + s) + orbit * s;
+        let [e_a, e_b] = along(&sight);
+        // One race alone: e phi' = theta' + s alpha', s its rolling ratio with its sign.
+        let one = |s: f64, e: f64| {
+            let s = s / e;
+            let along = (i * (1.0 + s) + orbit * s) / e;
             let own = i * (1.0 + s).powi(2) + orbit * s * s;
-            (n * i * orbit / own, -along / own)
+            (n * i * orbit / own / (e * e), -along / own)
         };
         let (inertia, takes) = match (inner, outer) {
             (true, true) => {
-                let r = p.rho_i + p.rho_e;
+                let r = p.rho_i * e_b + p.rho_e * e_a;
                 // (alpha', phi') by the rates of the races.
-                let (a, f) = ([-1.0 / r, 1.0 / r], [p.rho_e / r, p.rho_i / r]);
+                let (a, f) = ([-e_b / r, e_a / r], [p.rho_e / r, p.rho_i / r]);
                 let entry =
                     |u: usize, v: usize| n * (i * (a[u] + f[u]) * (a[v] + f[v]) + orbit * f[u] * f[v]);
                 (Matrix2::new(entry(0, 0), entry(0, 1), entry(1, 0), entry(1, 1)), [0.0; 2])
             }
             (true, false) => {
-                let (mass, takes) = one(p.rho_i);
+                let (mass, takes) = one(p.rho_i, e_a);
                 (Matrix2::new(mass, 0.0, 0.0, 0.0), [takes, 0.0])
             }
             (false, true) => {
-                let (mass, takes) = one(-p.rho_e);
+                let (mass, takes) = one(-p.rho_e, e_b);
                 (Matrix2::new(0.0, 0.0, 0.0, mass), [0.0, takes])
             }
             (false, false) => return None,
@@ -123,7 +130,12 @@ impl<const N: usize> Going<'_, N> {
         let mode = self.rhs.motions[g].mode;
         let own = state_of(&self.y, g);
         let [p, q] = [mode.place, place].map(|at| self.rhs.stands(g, at, self.t_s, &self.y, &own));
-        let rates = self.rhs.goes(g, &mode, &p, &self.y, &own);
+        let mut rates = self.rhs.goes(g, &mode, &p, &self.y, &own);
+        let along = along(&p);
+        // Of the races as it sees them, without what its own phi' is to that.
+        for contact in 0..2 {
+            rates[2 + contact] -= (1.0 - along[contact]) * rates[1];
+        }
         let touching = mode.place == Place::Open;
         let held = Mode { place, inner: if touching { Grip::Slip(1.0) } else { mode.inner }, ..mode };
         let all = self.inertia_with_all_but(those);
@@ -134,7 +146,7 @@ impl<const N: usize> Going<'_, N> {
             Some((rows, yields, (rows * yields * rows.transpose()).try_inverse()?))
         });
         let races = seen.map_or(all.fixed_view::<2, 2>(0, 0).into_owned(), |(_, _, races)| races);
-        let after = cross_between(model, times, &held, &p.point, &q.point, rates, &races);
+        let after = cross_between(model, times, &held, [&p.point, &q.point], rates, &races, along);
         let jump = Vector2::new(after[2] - rates[2], after[3] - rates[3]);
         let more = match seen {
             None => Vector4::new(jump[0], jump[1], 0.0, 0.0),
