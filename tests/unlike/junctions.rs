@@ -1,4 +1,4 @@
-//! Sprags one by one beside the junctions of their arcs: no sequence of changes accumulates there.
+//! Sprags one by one beside the junctions of their arcs: they come to their end.
 
 use crate::by_chance::{Chance, given};
 use sprag_design::clutch::{Carrier, Eccentricity, Scenario, ScenarioKind, Sharing, Standing};
@@ -70,7 +70,7 @@ fn drawn(seed: u64) -> (Scenario, Sharing, bool, f64) {
     });
     let sharing = Sharing {
         start: by.one_of(&[Standing::Sprung, Standing::Caged]),
-        seed,
+        seed: seed & u64::from(u32::MAX),
         size_within_m: by.perhaps(4e-6),
         azimuth_within_rad: by.perhaps(0.03),
         friction_within: by.perhaps(0.005),
@@ -82,8 +82,8 @@ fn drawn(seed: u64) -> (Scenario, Sharing, bool, f64) {
     (scene, sharing, bends, by.one_of(&[1e-6, 1e-9]))
 }
 
-/// A sprag that a junction holds between forces either way would pass it without end; one sprag has a limit for that (`dynamics::zeno`),
-/// sprags one by one have none, and need none in any of these.
+/// A sprag that a junction holds between forces either way passes it without end: the limit at which such changes of one sprag are closed
+/// (`dynamics::zeno`) sprags one by one have not. Of the first 755 scenes one needs it, 460: A slips on the one arc and holds on the other.
 #[test]
 fn scenes_beside_a_junction_come_to_their_end() {
     let (first, scenes) = (given("SPRAGS_SEED", SEED) << 32, given("SPRAGS_SCENES", SCENES));
