@@ -62,6 +62,40 @@ pub(super) fn cross_between(
     let w = Vector3::new(rates[1], if inner { 0.0 } else { rates[2] }, if outer { 0.0 } else { rates[3] });
     let momentum = rest * w + coupling_before * rates[0];
     let w = rest_inverse * (momentum - coupling_after * alpha_rate);
+    rated(after, alpha_rate, w, [inner, outer], along)
+}
+
+/// The same where G's orbit is another too, rolling or not: what that takes of the kinetic energy at these momenta, alpha' gives.
+pub(super) fn cross_to_another_orbit(
+    model: &Model,
+    times: f64,
+    mode_after: &Mode,
+    [before, after]: [&WedgePoint; 2],
+    rates: [f64; 4],
+    races: &Matrix2<f64>,
+    along: [f64; 2],
+) -> [f64; 4] {
+    let [inner, outer] = rolling(mode_after);
+    let of = |p: &WedgePoint| reduced(model, times, p, [inner, outer], races, along);
+    let ((m_before, coupling_before, rest_before), (m_after, coupling_after, rest)) = (of(before), of(after));
+    let inverses = rest_before.try_inverse().zip(rest.try_inverse());
+    let Some((inverse_before, inverse)) = inverses else { return rates };
+    let w = Vector3::new(rates[1], if inner { 0.0 } else { rates[2] }, if outer { 0.0 } else { rates[3] });
+    let momentum = rest_before * w + coupling_before * rates[0];
+    let gain = (inverse_before * momentum).dot(&((rest - rest_before) * (inverse * momentum)));
+    let squared = (m_before * rates[0] * rates[0] + gain) / m_after;
+    let alpha_rate = squared.max(0.0).sqrt().copysign(rates[0]);
+    rated(after, alpha_rate, inverse * (momentum - coupling_after * alpha_rate), [inner, outer], along)
+}
+
+/// All rates where `w` are those of (phi, free races).
+fn rated(
+    after: &WedgePoint,
+    alpha_rate: f64,
+    w: Vector3<f64>,
+    [inner, outer]: [bool; 2],
+    along: [f64; 2],
+) -> [f64; 4] {
     [
         alpha_rate,
         w[0],

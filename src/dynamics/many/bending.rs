@@ -397,9 +397,10 @@ impl<'a> Bent<'a> {
 impl SpragGroup {
     /// `point` of a sprag at `alpha` between races that bend, which press it by `more_n` (N) more than its own curve has there.
     ///
-    /// Where contact is lost, and found, alpha is not that of first contact: OC_g must be the same on both sides there, and with a speed the
-    /// centrifugal potential, or energy jumps by what G's orbit, and that, differ by. Below first contact, where a curve's geometry is level,
-    /// they are those of an open sprag; beyond, those of its arc, which an open one keeps.
+    /// Where contact is lost, and found, alpha is not that of first contact: the centrifugal potential and OC_g must be the same on both
+    /// sides there, or energy jumps by F_c times what they differ by. Below first contact, where a curve's geometry is level, they are
+    /// those of an open sprag; beyond, those of its arc, which an open one keeps. Standing still there is no such potential, and an open
+    /// sprag has its own geometry everywhere.
     pub(super) fn between_bent(
         &self,
         place: Place,
@@ -415,15 +416,12 @@ impl SpragGroup {
         };
         let below_rad = (curve.first_contact_rad() - alpha).max(0.0);
         if place == Place::Open {
-            if below_rad == 0.0 {
+            if speed != 0.0 && below_rad == 0.0 {
                 let mut closed = curve.in_arc(curve.arc_at(alpha), alpha);
+                closed.t_static += more_n * ratio(&closed);
+                let stored = closed.t_static * closed.oa * (closed.rho_i + closed.rho_e);
                 (point.oc_g, point.oc_g_slope) = (closed.oc_g, closed.oc_g_slope);
-                if speed != 0.0 {
-                    closed.t_static += more_n * ratio(&closed);
-                    let stored = closed.t_static * closed.oa * (closed.rho_i + closed.rho_e);
-                    point.t_static =
-                        stored / (point.oa * (point.rho_i + point.rho_e)) + swings(&closed, &point);
-                }
+                point.t_static = stored / (point.oa * (point.rho_i + point.rho_e)) + swings(&closed, &point);
             }
             return point;
         }

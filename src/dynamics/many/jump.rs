@@ -7,7 +7,7 @@
 use super::axes::Sight;
 use super::run::Going;
 use super::{EACH, HEAD, state_of};
-use crate::dynamics::crossing::cross_between;
+use crate::dynamics::crossing::{cross_between, cross_to_another_orbit};
 use crate::dynamics::model::{Grip, Mode, Place};
 use nalgebra::{Matrix2, Matrix2x4, Matrix4, Vector2, Vector4};
 
@@ -146,7 +146,14 @@ impl<const N: usize> Going<'_, N> {
             Some((rows, yields, (rows * yields * rows.transpose()).try_inverse()?))
         });
         let races = seen.map_or(all.fixed_view::<2, 2>(0, 0).into_owned(), |(_, _, races)| races);
-        let after = cross_between(model, times, &held, [&p.point, &q.point], rates, &races, along);
+        let points = [&p.point, &q.point];
+        // Between races that bend contact is lost and found away from first contact, where an open sprag at rest has another OC_g.
+        let opens = touching || place == Place::Open;
+        let after = if opens && self.rhs.bends() && p.point.oc_g != q.point.oc_g {
+            cross_to_another_orbit(model, times, &held, points, rates, &races, along)
+        } else {
+            cross_between(model, times, &held, points, rates, &races, along)
+        };
         let jump = Vector2::new(after[2] - rates[2], after[3] - rates[3]);
         let more = match seen {
             None => Vector4::new(jump[0], jump[1], 0.0, 0.0),

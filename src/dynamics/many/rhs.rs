@@ -171,6 +171,11 @@ impl<'a> Rhs<'a> {
         self.bent(y, |_| ());
     }
 
+    /// Whether the races bend.
+    pub(super) fn bends(&self) -> bool {
+        self.bent.is_some()
+    }
+
     /// Work of that so far.
     pub(super) fn bending_work(&self) -> BendingWork {
         self.bent.as_ref().map_or(BendingWork::default(), |bent| bent.borrow().work)
