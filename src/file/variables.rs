@@ -43,7 +43,7 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
 
 /// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](crate::design::LIMIT_KEYS).
 #[cfg(test)]
-const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal", "lubrication", "sharing"];
+const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal", "lubrication", "sharing", "tolerances"];
 
 /// Unit of every number in these tables by the last step of its path, as printed; a pure number has none.
 const UNITS: &[(&str, &str)] = &[
@@ -74,6 +74,7 @@ const UNITS: &[(&str, &str)] = &[
     ("drop_um", "µm"),
     ("duration_s", "s"),
     ("end_drop_um", "µm"),
+    ("expansion_per_k", "1/K"),
     ("expansion_um_per_m_k", "µm/(m K)"),
     ("free_run_rpm", "rpm"),
     ("frequency_hz", "Hz"),
@@ -90,6 +91,7 @@ const UNITS: &[(&str, &str)] = &[
     ("inner_inertia_kg_m2", "kg m^2"),
     ("inner_interference_um", "µm"),
     ("inner_race_c", "°C"),
+    ("inner_race_radius_mm", "mm"),
     ("inner_race_to_oil_w_per_k", "W/K"),
     ("inner_radius_mm", "mm"),
     ("intake_pressure_mpa", "MPa"),
@@ -108,6 +110,7 @@ const UNITS: &[(&str, &str)] = &[
     ("outer_interference_um", "µm"),
     ("outer_outside_radius_mm", "mm"),
     ("outer_race_c", "°C"),
+    ("outer_race_radius_mm", "mm"),
     ("outer_race_to_oil_w_per_k", "W/K"),
     ("outer_radius_mm", "mm"),
     ("overrun_rpm", "rpm"),
@@ -127,6 +130,7 @@ const UNITS: &[(&str, &str)] = &[
     ("rise", ""),
     ("rod_ratio", ""),
     ("roller_coefficient", ""),
+    ("run_out_mm", "mm"),
     ("seed", ""),
     ("spectrum", ""),
     ("shaft_bore_radius_mm", "mm"),
@@ -135,6 +139,8 @@ const UNITS: &[(&str, &str)] = &[
     ("slices", ""),
     ("speed_m_s", "m/s"),
     ("speed_rpm", "rpm"),
+    ("sprag_inner_radius_mm", "mm"),
+    ("sprag_outer_radius_mm", "mm"),
     ("sprag_roughness_um", "µm"),
     ("sprag_wear_mm3_per_nm", "mm^3/(Nm)"),
     ("sprags_c", "°C"),
@@ -148,6 +154,7 @@ const UNITS: &[(&str, &str)] = &[
     ("stroke_mm", "mm"),
     ("strut_angle_deg", "deg"),
     ("temperature_c", "°C"),
+    ("temperature_k", "K"),
     ("tilt_mrad", "mrad"),
     ("torque_nm", "Nm"),
     ("torque_step_nm", "Nm"),
