@@ -67,8 +67,8 @@ Examples:
 Exit codes:
   0 done, all margins held     1 a margin is not held, or no feasible design found
   2 malformed command line or design file     3 answer not computed or not written
-  130 stopped by Ctrl-C; what had been found is written by optimize, identify, simulate, accuracy, reengage, feed and
-      resonance (amplitudes that are done), nothing by the others (studio: 0, Ctrl-C is how it ends)
+  130 stopped by Ctrl-C; what had been found is written by optimize, identify, simulate, accuracy, reengage, feed,
+      sharing --scenario and resonance (amplitudes that are done), nothing by the others (studio: 0, Ctrl-C is how it ends)
   141 the reader of the answers of evaluate has gone before the last
 
 A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of

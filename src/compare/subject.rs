@@ -3,7 +3,7 @@
 use crate::design::Design;
 use crate::margin::{
     Capacities, LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows,
-    static_margins,
+    static_margins_until,
 };
 use crate::scenario::Settings;
 use crate::wedge::StaticPoint;
@@ -39,7 +39,7 @@ impl Subject {
     /// # Errors
     /// [`NoMargins`].
     pub fn new(design: Design, up_to_rad_s: f64, settings: &Settings) -> Result<Self, NoMargins> {
-        let (state, mut margins, _) = static_margins(&design, Capacities::Wanted)?;
+        let (state, mut margins, _) = static_margins_until(&design, Capacities::Wanted, &settings.follow)?;
         let engaging: Vec<_> = design.scenarios.iter().filter(|s| !s.kind.is_overrun()).collect();
         let scenes: Vec<Scene> = engaging
             .par_iter()

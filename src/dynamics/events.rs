@@ -26,7 +26,7 @@ pub(super) const N_BE: usize = 4;
 pub(super) const LEAVE_RAD: f64 = 1e-12;
 
 /// How far an open sprag may turn back before the run ends with a name, rad.
-pub(super) const OPEN_REACH_RAD: f64 = 0.5;
+pub(crate) const OPEN_REACH_RAD: f64 = 0.5;
 
 /// What one evaluation of the forces tells.
 #[derive(Debug, Clone, Copy)]

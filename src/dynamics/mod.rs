@@ -49,6 +49,7 @@ pub use cage_swing::{swing_in_cage, swing_in_cage_with_friction};
 pub use carried::Carried;
 pub use drive::{Drive, FlangeDrive, Loads, Ramp};
 pub use energy::EnergyBalance;
+pub(crate) use events::OPEN_REACH_RAD;
 pub use many::{
     Axes, AxisBearing, BendingWork, FirstSlip, ManyRun, ManySample, ManyStart, OffCentre, Rings,
     SpragApproach, SpragCourse, SpragGroup, SpragMotion, StaysWith, run_many, settled_off_centre,

@@ -36,8 +36,11 @@ pub use unlike::unlike_margins;
 
 use crate::clutch::{Clutch, Scenario};
 use crate::design::{Design, Limits};
+use crate::follow::Follow;
 use crate::scenario::{AtRest, Settings};
 use crate::wedge::{Effort, NoCurve, NoElastic, WedgeCurve};
+use run_out::run_out_margins_until;
+use unlike::unlike_margins_until;
 
 /// Why no margins can be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -117,13 +120,25 @@ pub fn static_margins(
     design: &Design,
     capacities: Capacities,
 ) -> Result<(LoadState, Vec<Margin>, Option<RunOut>), NoMargins> {
+    static_margins_until(design, capacities, &Follow::nobody())
+}
+
+/// The same; stopped by `follow`, they mean nothing.
+///
+/// # Errors
+/// [`NoMargins`].
+pub(crate) fn static_margins_until(
+    design: &Design,
+    capacities: Capacities,
+    follow: &Follow,
+) -> Result<(LoadState, Vec<Margin>, Option<RunOut>), NoMargins> {
     let state = load_state(design)?;
     let mut rows = load_margins(design, &design.limits, capacities, &state);
-    let ring = RunOut::new(design, &state);
+    let ring = if follow.stopped() { None } else { RunOut::new(design, &state) };
     if let Some(ring) = &ring {
-        rows.extend(run_out_margins(design, &design.limits, ring, capacities));
+        rows.extend(run_out_margins_until(design, &design.limits, ring, capacities, follow));
     }
-    rows.extend(unlike_margins(design, &design.limits, &state, capacities));
+    rows.extend(unlike_margins_until(design, &design.limits, &state, capacities, follow));
     Ok((state, rows, ring))
 }
 

@@ -26,6 +26,7 @@ mod rows;
 
 pub use balance::{OffCentreEnd, Round, SpragLoad, Survey};
 pub use rows::run_out_margins;
+pub(super) use rows::run_out_margins_until;
 
 use super::LoadState;
 use crate::clutch::Carrier;

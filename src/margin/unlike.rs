@@ -7,6 +7,7 @@ use super::row::{BeyondEnd, Demand, Margin};
 use super::table::LIMITS;
 use crate::clutch::Sharing;
 use crate::design::{Design, Limits};
+use crate::follow::Follow;
 use crate::margin::Capacities;
 use crate::numeric::root;
 use crate::sharing::{Bears, Shared, Turn};
@@ -25,9 +26,10 @@ fn one_by_one<'a>(design: &Design, state: &'a LoadState) -> Option<Turn<'a>> {
     }
 }
 
-/// A turn, and what it has found so far, by torque.
+/// A turn, and what it has found so far, by torque. Once `follow` is stopped it finds nothing more.
 struct Found<'a> {
     turn: Turn<'a>,
+    follow: &'a Follow,
     at: RefCell<Vec<(f64, Option<Vec<Shared>>)>>,
     ends: RefCell<Vec<(f64, Option<f64>)>>,
 }
@@ -37,7 +39,7 @@ impl Found<'_> {
     fn at<T>(&self, torque_nm: f64, of: impl Fn(&[Shared]) -> Option<T>) -> Option<T> {
         let known = self.at.borrow().iter().position(|(torque, _)| *torque == torque_nm);
         let k = known.unwrap_or_else(|| {
-            let found = self.turn.at(torque_nm).ok();
+            let found = (!self.follow.stopped()).then(|| self.turn.at(torque_nm).ok()).flatten();
             self.at.borrow_mut().push((torque_nm, found));
             self.at.borrow().len() - 1
         });
@@ -48,6 +50,9 @@ impl Found<'_> {
     fn end(&self, beyond_nm: f64) -> Option<f64> {
         let known = self.ends.borrow().iter().find(|(beyond, _)| *beyond == beyond_nm).map(|found| found.1);
         known.unwrap_or_else(|| {
+            if self.follow.stopped() {
+                return None;
+            }
             let end = self.turn.end(beyond_nm).map(|(held, _)| held);
             self.ends.borrow_mut().push((beyond_nm, end));
             end
@@ -63,8 +68,19 @@ pub fn unlike_margins(
     state: &LoadState,
     capacities: Capacities,
 ) -> Vec<Margin> {
+    unlike_margins_until(design, limits, state, capacities, &Follow::nobody())
+}
+
+/// The same; stopped by `follow`, they mean nothing.
+pub(super) fn unlike_margins_until(
+    design: &Design,
+    limits: &Limits,
+    state: &LoadState,
+    capacities: Capacities,
+    follow: &Follow,
+) -> Vec<Margin> {
     let Some(turn) = one_by_one(design, state) else { return Vec::new() };
-    let turn = Found { turn, at: RefCell::default(), ends: RefCell::default() };
+    let turn = Found { turn, follow, at: RefCell::default(), ends: RefCell::default() };
     let sprags = &turn.turn.first().sprags;
     // Friction in units of what the sprag has.
     let demanded = |of: Of, i: usize, load: &Bears| match of {
@@ -124,25 +140,53 @@ fn capacity(
     if at_a >= 0.0 {
         return Some(0.0);
     }
-    // Steps of a quarter of the torque, up to the end of the curve.
+    // Steps of a quarter of the torque, up to the end of the curve: as many at once as make a quarter of what is carried already. Of
+    // those the first that is not below 0 is looked for by halves.
+    let step_nm = 0.25 * torque_nm;
     let mut most = if end_nm < torque_nm { end_nm } else { state.curve.end_torque_nm() };
-    let mut b = a;
-    while b < most {
-        b = (b + 0.25 * torque_nm).min(most);
+    let on = |from: f64, steps: usize| {
+        let mut b = from;
+        for _ in 0..steps {
+            let next = (b + step_nm).min(most);
+            if next <= b {
+                break;
+            }
+            b = next;
+        }
+        b
+    };
+    while a < most {
+        let mut steps = ((a / torque_nm) as usize).max(1);
+        let mut b = on(a, steps);
+        if b <= a {
+            return None;
+        }
         let mut at_b = over(b);
+        if at_b < 0.0 {
+            (a, at_a) = (b, at_b);
+            continue;
+        }
+        while steps > 1 {
+            let half = steps / 2;
+            let middle = on(a, half);
+            let at = over(middle);
+            if at < 0.0 {
+                (a, at_a, steps) = (middle, at, steps - half);
+            } else {
+                (b, at_b, steps) = (middle, at, half);
+            }
+        }
         if at_b.is_nan() {
             // Unlike sprags end before the curve of sprags alike does.
             most = turn.end(b)?;
             b = most;
             at_b = over(b);
         }
-        if at_b.is_nan() {
-            return None;
-        }
-        if at_b >= 0.0 {
-            return root::bracketed(a, b, at_a, at_b, CAPACITY * torque_nm, over);
-        }
-        (a, at_a) = (b, at_b);
+        return if at_b >= 0.0 {
+            root::bracketed(a, b, at_a, at_b, CAPACITY * torque_nm, over)
+        } else {
+            None
+        };
     }
     None
 }

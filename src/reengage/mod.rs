@@ -15,11 +15,14 @@
 //!
 //! which is [`Blow::by_energy_nm`]; slip while the load rises takes some of it.
 
+mod float;
+
 use crate::clutch::{Clutch, Friction};
 use crate::dynamics::{Run, Stop};
 use crate::element::{Beginning, Element, NoElement, Port, Settings, Torque};
 use crate::follow::Follow;
 use crate::wedge::{StaticPoint, WedgeCurve};
+use float::Floating;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 
@@ -72,7 +75,7 @@ pub struct Blow {
     /// Largest torque by the balance of energy, nothing lost, N m, as if something gripped at that speed; `None`: beyond the end of
     /// the curve.
     pub by_energy_nm: Option<f64>,
-    /// Why the run ended where it has not come to its end.
+    /// Why the run ended where it has not come to its end; [`Stop::FellAway`] also where the sprags float open for good.
     pub ended: Option<Stop>,
 }
 
@@ -213,6 +216,7 @@ struct Drive<'a> {
     dt_s: f64,
     /// The windup of the clutch that grips; `None`: the torque by energy is not asked for.
     windup: RefCell<Option<Windup<'a>>>,
+    floating: Floating<'a>,
     follow: &'a Follow,
 }
 
@@ -288,6 +292,10 @@ impl Drive<'_> {
                 wound = true;
                 break;
             }
+            if self.floating.for_good(&grips) {
+                ended = Some(Stop::FellAway);
+                break;
+            }
         }
         if !wound && ended.is_none() {
             ended = Some(Stop::StepLimit);
@@ -361,7 +369,8 @@ pub(crate) fn blows_with(
     let windup = by_energy.then(|| Windup::new(&rests.model().curve, torque_nm)).flatten();
     let windup = RefCell::new(windup);
     let radius_m = clutch.races.inner_radius_m;
-    let mut drive = Drive { case, radius_m, begun_rad: 0.0, dt_s, windup, follow };
+    let floating = Floating { clutch: &held, torque_nm, outer_held: case.outer_held };
+    let mut drive = Drive { case, radius_m, begun_rad: 0.0, dt_s, windup, floating, follow };
     drive.begun_rad = drive.apart(&rests).0 / drive.radius_m;
     let mut slips = rests.exchanged(&slippery)?;
     // Made once: each path goes on from where the slip stands then.

@@ -1,8 +1,8 @@
 //! Slip and the blow after it: held against the balance of energy, limits, and from outside.
 
 use crate::program::*;
-use sprag_design::answer::Answer;
 use sprag_design::answer::reengagement::ReengagementSettings;
+use sprag_design::answer::{Answer, Finding};
 use sprag_design::dynamics::Stop;
 use sprag_design::reengage::{Blow, Blows, SlipUnderLoad, blows, by_energy_nm, taken_up_j};
 use sprag_design::{Design, Follow, WedgeCurve};
@@ -131,6 +131,38 @@ fn what_is_borne_is_the_border() {
     let speed = blow["speed_rpm"].as_f64().unwrap() * std::f64::consts::PI / 30.0;
     assert!((blow["energy_j"].as_f64().unwrap() / (0.5 * 0.025 * speed * speed) - 1.0).abs() < 1e-12);
     assert!(body["bears_j"].as_f64().unwrap() <= body["end_of_curve_j"].as_f64().unwrap(), "{body}");
+}
+
+/// Sprags that centrifugal force holds open beyond the reach of their spring: told as such, by their energy, while those that still come
+/// back at that speed do.
+#[test]
+fn sprags_that_float_open_are_out_of_reach() {
+    let design = Design::read("designs/huang2017-multi-arc.toml".as_ref()).unwrap();
+    let speed_rad_s = 12_000.0 * std::f64::consts::PI / 30.0;
+    let inertia_kg_m2 = [design.clutch.races.inner_inertia_kg_m2, design.clutch.races.outer_inertia_kg_m2];
+    let one = |friction: f64, outer_held: bool| {
+        let case = SlipUnderLoad { speed_rad_s, outer_held, ..case(friction, inertia_kg_m2, &[1e-3]) };
+        blows(&design.clutch, &case, &Follow::nobody()).unwrap()
+    };
+    let floats = one(0.0841, false);
+    assert_eq!((floats.ended, floats.list[0].ended), (None, Some(Stop::FellAway)), "{floats:?}");
+    // A little farther out they are not yet held: the outer race, which runs ahead, presses them in.
+    let comes_back = one(0.0838, false);
+    assert_eq!(comes_back.list[0].ended, Some(Stop::CurveEnd), "{comes_back:?}");
+    assert_eq!(one(0.0869, false).list[0].ended, None);
+    let asked = ReengagementSettings {
+        torque_nm: Some(50.0),
+        friction: Some(0.0841),
+        paths_m: vec![1e-3],
+        ..ReengagementSettings::default()
+    };
+    let mut answer = design.reengagement(&asked).unwrap();
+    assert!(answer.verdict().contains("out of reach"), "{}", answer.verdict());
+    assert_eq!(answer.outcome(), Finding::NotHeld);
+    // Stopped on the way to what would be borne: said, and no verdict that scripts may take for whole.
+    answer.borne_stopped = true;
+    assert_eq!(answer.outcome(), Finding::Stopped);
+    assert!(answer.text(Default::default()).contains("stopped before what would be borne"));
 }
 
 /// The races run as the file lets them where they carry torque; overrun does not count.

@@ -32,7 +32,7 @@ use crate::file::beside_the_name;
 use crate::follow::{Follow, News};
 use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, scene_demand, scene_rows,
-    static_margins,
+    static_margins_until,
 };
 use crate::report::{Page, Screen, Table};
 use crate::scenario::Settings;
@@ -196,7 +196,11 @@ impl Design {
     /// # Errors
     /// [`NoCheck`].
     pub fn check(&self, follow: &Follow) -> Result<CheckAnswer, NoCheck> {
-        let (state, mut rows, ring) = static_margins(self, Capacities::Wanted).map_err(NoCheck::NoClutch)?;
+        let (state, mut rows, ring) =
+            static_margins_until(self, Capacities::Wanted, follow).map_err(NoCheck::NoClutch)?;
+        if follow.stopped() {
+            return Err(NoCheck::Stopped);
+        }
         let static_rows = rows.len();
         let found: Vec<Option<SceneFound>> =
             self.scenarios.par_iter().map(|scenario| scene(self, &state, scenario, follow)).collect();

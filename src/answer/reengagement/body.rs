@@ -40,7 +40,7 @@ pub struct ReengagementBody<'a> {
     pub bears_nm: Option<f64>,
     /// Each path of slip, a row of [`ReengagementAnswer::blows`].
     pub blows: Rows<&'a Blow>,
-    /// What would be borne; null where all is, or where it is not known.
+    /// What would be borne; null where all is, or where it is not known (`verdict`: stopped).
     pub borne: Option<BorneBody>,
     /// Energy that the windup takes up from the torque carried to the end of the curve, J.
     pub end_of_curve_j: Option<f64>,

@@ -101,6 +101,8 @@ pub struct ReengagementAnswer<'a> {
     pub takes_up_j: Option<[f64; 2]>,
     /// What would be borne, where a blow is not.
     pub borne: Option<BorneSlip>,
+    /// Whether the search for that was stopped.
+    pub borne_stopped: bool,
     /// Blows over friction and inertia, each at every path; empty where no such table was asked for.
     pub over: Vec<BlowAt>,
     /// How many were asked for.
@@ -234,14 +236,16 @@ impl Design {
             bears,
             takes_up_j,
             borne: None,
+            borne_stopped: false,
             over: Vec::new(),
             over_asked: 0,
             speed_of,
             lift_off_rad_s,
             outer_given: settings.inertia_kg_m2[1].is_some(),
         };
-        if !answer.is_held() && !settings.follow.stopped() {
+        if !answer.is_held() && answer.outcome() != Finding::Stopped {
             answer.borne = answer.borne(&settings.follow).map_err(NoReengagement::NoStart)?;
+            answer.borne_stopped = answer.borne.is_none() && settings.follow.stopped();
         }
         if over.iter().any(|list| !list.is_empty()) {
             answer.table_over(over, &settings.follow).map_err(NoReengagement::NoStart)?;
@@ -300,7 +304,7 @@ impl ReengagementAnswer<'_> {
         let (Some(&shortest_m), needs) = (self.case.paths_m.first(), self.found.needs) else {
             return Ok(None);
         };
-        if !needs.is_finite() {
+        if !needs.is_finite() || follow.stopped() {
             return Ok(None);
         }
         let lost = self.found.list.iter().position(|blow| !self.bears_it(blow));
@@ -392,8 +396,8 @@ impl Said for ReengagementAnswer<'_> {
         let ends = found.list.iter().filter_map(|blow| blow.ended).chain(found.ended.map(|end| end.stop));
         match ends.last() {
             Some(Stop::Interrupted) => Finding::Stopped,
+            _ if self.borne_stopped || self.over.len() < self.over_asked => Finding::Stopped,
             Some(stop) if stop.gave_up() => Finding::NotKnown,
-            _ if self.over.len() < self.over_asked => Finding::Stopped,
             _ => Finding::of(found.ended.is_none() && found.list.iter().all(|blow| self.bears_it(blow))),
         }
     }

@@ -11,6 +11,16 @@ use crate::report::{Unit, significant};
 impl ReengagementAnswer<'_> {
     /// The answer in a sentence.
     pub(super) fn verdict_words(&self) -> String {
+        let cut = match (self.borne_stopped, self.over.len() < self.over_asked) {
+            (true, _) => "; stopped before what would be borne was known",
+            (false, true) => "; stopped before every friction and inertia was known",
+            (false, false) => "",
+        };
+        self.blow_words() + cut
+    }
+
+    /// What each path of slip comes to.
+    fn blow_words(&self) -> String {
         if let Some(needed) = self.found.holds {
             return format!(
                 "HELD: it does not slip: {} needs a friction of {}, and {} is there",
@@ -33,9 +43,22 @@ impl ReengagementAnswer<'_> {
                     path(b),
                     Unit::NewtonMetre.show(p.torque_nm, 4)
                 ),
-                None => {
-                    format!("NOT HELD: after {} of slip the blow goes beyond the end of the curve", path(b))
-                }
+                None => match b.ended {
+                    Some(Stop::Interrupted) => format!("stopped after {} of slip", path(b)),
+                    Some(Stop::FellAway) => format!(
+                        "NOT HELD: after {} of slip the sprags are out of reach, and nothing brings them back",
+                        path(b)
+                    ),
+                    Some(stop) if stop.gave_up() => format!(
+                        "NOT HELD: after {} of slip the clutch has not gripped as long as it was followed ({})",
+                        path(b),
+                        stop.name()
+                    ),
+                    _ => format!(
+                        "NOT HELD: after {} of slip the blow goes beyond the end of the curve",
+                        path(b)
+                    ),
+                },
             },
             None => {
                 let most = self.found.list.iter().filter_map(|b| Some((b, b.peak?.torque_nm)));

@@ -2,6 +2,7 @@
 
 use super::{RunOut, SpragLoad, Survey};
 use crate::design::{Design, Limits};
+use crate::follow::Follow;
 use crate::margin::Capacities;
 use crate::margin::limits::{Limit, Of};
 use crate::margin::load::{beyond, not_carried};
@@ -21,6 +22,17 @@ pub fn run_out_margins(
     ring: &RunOut,
     capacities: Capacities,
 ) -> Vec<Margin> {
+    run_out_margins_until(design, limits, ring, capacities, &Follow::nobody())
+}
+
+/// The same; stopped by `follow`, they mean nothing.
+pub(in crate::margin) fn run_out_margins_until(
+    design: &Design,
+    limits: &Limits,
+    ring: &RunOut,
+    capacities: Capacities,
+    follow: &Follow,
+) -> Vec<Margin> {
     let end = ring.end.torque_nm;
     let mut rows = Vec::new();
     let asked = limits.largest_torque_nm();
@@ -29,8 +41,9 @@ pub fn run_out_margins(
     }
     // A hair below the end, where every sprag still has its curve.
     let last = end * (1.0 - 1e-9);
+    let looks = (1..=LOOKS).take_while(|_| !follow.stopped());
     let surveys: Vec<Survey> =
-        (1..=LOOKS).filter_map(|i| ring.survey(last * i as f64 / LOOKS as f64).ok()).collect();
+        looks.filter_map(|i| ring.survey(last * i as f64 / LOOKS as f64).ok()).collect();
     if let Some(torque) = limits.usual_torque_nm()
         && let Ok(survey) = ring.survey(torque.min(last))
     {
@@ -41,6 +54,9 @@ pub fn run_out_margins(
     let (end_of_profile, others): (Vec<&'static Limit>, Vec<_>) =
         LIMITS.iter().partition(|limit| *limit == &&END_OF_PROFILE);
     for limit in others.into_iter().chain(end_of_profile) {
+        if follow.stopped() {
+            break;
+        }
         let Of::Sprag { allowed, demand, below_torque } = limit.of else { continue };
         let (Some(torque), Some(allowed)) = (limit.when.torque_nm(limits), allowed(design, limits)) else {
             continue;
