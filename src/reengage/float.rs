@@ -4,13 +4,13 @@
 //! Equations: those of [`Model::forces`](crate::dynamics::Model::forces), by their energy.
 //!
 //! Open sprags and outer race turn alone. Their angular momentum p about O grows by the torque C, p' = C, whatever B does. Where B
-//! rolls, alpha is all that is left; with M = J_e + n(I_g + m_g OC_g^2) and c = I_g(1 - rho_e) - m_g OC_g^2 rho_e its energy
-//! beside p^2/(2M) is E, between walls of the potential
+//! rolls, alpha is all that is left: with M = J_e + n(I_g + m_g OC_g^2), c = I_g(1 - rho_e) - m_g OC_g^2 rho_e and T the kinetic
+//! energy it moves with the energy E = T - p^2/(2M) + V in the potential
 //!
 //!   V(alpha) = n K_r(alpha_max - alpha)^2/2 + p^2/(2M) + C integral of n c/M d alpha.
 //!
-//! E' - V(touch)' = (p^2)'/2 (1/M(alpha) - 1/M(touch)): with G farther out in the open than at the touch, and p^2 rising, E only falls
-//! against the wall at the touch. A sprag below that wall stays below it. Where B slides, friction takes from E more than
+//! E and V(touch) change by (p^2)'/(2M), each at its own alpha: with G farther out in the open than at the touch, and p^2 rising, E
+//! falls against the wall at the touch. A sprag below that wall stays below it. Where B slides, friction takes from E more than
 //! the lag of the sprags brings as long as mu N_be OB > (C/M)(I_g + m_g OC_g^2). An outer race that is held has J_e
 //! without bound.
 
