@@ -41,9 +41,15 @@ fn unworn_is_the_clutch_of_today() {
     assert_eq!([now.flat_m, now.opened_m, now.share], [0.0; 3]);
 }
 
+/// The same with a sliding contact that has the static friction: nothing but slip ends how it bites.
+fn as_static(mut design: Design) -> Design {
+    design.clutch.friction.kinetic = design.clutch.friction.static_;
+    design
+}
+
 /// The lubricated clutch in a longer life, with a strength of its contacts.
 fn pitted(hours: f64) -> Design {
-    let mut design = design(false, hours, 1.0);
+    let mut design = as_static(design(false, hours, 1.0));
     design.service.as_mut().unwrap().pitting =
         Some(PittingStrength { pressure_pa: 3e9, cycles: 1e6, exponent: 20.0 / 3.0 });
     design
@@ -233,10 +239,18 @@ fn a_life_tells_when_wear_ends_it() {
     let answer = answer.life().unwrap();
     let (share, why) = answer.worn.as_ref().unwrap().broken().unwrap();
     println!("{}", answer.verdict());
-    assert!(share < 1.0 && why.names().0 == "friction", "{share} {why:?}");
-    assert!(answer.verdict().starts_with("NOT HELD") && answer.verdict().contains("slip"));
+    assert!(share < 1.0 && why.names().0 == "re-engagement", "{share} {why:?}");
+    assert!(answer.verdict().starts_with("NOT HELD") && answer.verdict().contains("bite no more"));
     let body = serde_json::to_value(answer.envelope(0.0).body).unwrap();
-    assert_eq!(body["wear"]["broken_by"], "friction");
+    assert_eq!(body["wear"]["broken_by"], "re-engagement");
+    // That is where first contact asks for the kinetic friction; where that is the static one, it slips later.
+    let last = answer.worn.as_ref().unwrap().states.iter().find(|s| s.share == share).unwrap();
+    assert!((last.first_tan_omega.unwrap() / 0.09 - 1.0).abs() < 1e-3, "{last:?}");
+    let as_static = as_static(design(false, 20_000.0, 1.0));
+    let as_static = as_static.life().unwrap();
+    let (later, why) = as_static.worn.as_ref().unwrap().broken().unwrap();
+    assert!(share < later && later < 1.0 && why.names().0 == "friction", "{share} {later} {why:?}");
+    assert!(as_static.verdict().contains("slip"));
     assert_eq!(body["wear"]["states"].as_array().unwrap().len(), answer.worn.as_ref().unwrap().states.len());
     let oil = OIL.find("[lubrication]").unwrap()..OIL.find("[[scenarios]]").unwrap();
     let mut dry = OIL.to_owned();
