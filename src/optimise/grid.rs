@@ -32,7 +32,7 @@ const REST: usize = 150;
 pub struct OnGrid {
     /// Variables of the search's outcome.
     pub x: Vec<f64>,
-    /// Margins in full, at a tenth of the search's tolerance.
+    /// Margins in full, at a tenth of the search's tolerance, as those of the search itself.
     pub rows: Vec<Margin>,
     /// The same as the search has them.
     pub as_searched: Vec<Margin>,
@@ -290,9 +290,11 @@ impl<'s> Grid<'s> {
             match self.problem.finished_file(x) {
                 Ok(file) if broken.is_empty() => {
                     let (objective, before) = (full.value(&assessed, 0), self.problem.value(&searched, 0));
+                    let mut rows = assessed.rows;
+                    rows.extend(self.problem.besides(x));
                     return Ok(OnGrid {
                         x: x.clone(),
-                        rows: assessed.rows,
+                        rows,
                         as_searched: searched.rows,
                         objective,
                         objective_error: (objective - before).abs(),

@@ -1,6 +1,7 @@
 //! The clutch as a vector and its margins.
 
 mod slopes;
+mod sprags;
 
 use super::corner::{Corner, perturbed};
 use super::evaluate::{Evaluation, NoEvaluation};
@@ -13,8 +14,8 @@ use crate::design::{Design, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optim
 use crate::fidelity::{self, Effort};
 use crate::file::{DesignForm, EditError, content, with_limits, with_values};
 use crate::margin::{
-    Capacities, LoadRows, LoadState, Margin, NoMargins, RESOLUTION, RunOut, SceneDemand, When, load_state_at,
-    run_out_margins, scene_margins, scene_rows, unlike_margins,
+    Capacities, LoadRows, LoadState, Margin, NoMargins, RESOLUTION, SceneDemand, When, load_state_at,
+    scene_margins, scene_rows,
 };
 use crate::scenario::{AtRest, Prepared, RollingTrack, Settings, demand, demand_tracked};
 use std::sync::{Arc, OnceLock};
@@ -404,11 +405,7 @@ impl ClutchProblem {
         }
         if self.as_checked {
             rows.extend(scenes(&|name| self.checked.contains(name) && !self.scenarios.contains(name))?);
-            let off_centre = RunOut::new(design, &state)
-                .map(|ring| run_out_margins(design, &self.limits, &ring, Capacities::LeftOut))
-                .unwrap_or_default();
-            let unlike = unlike_margins(design, &self.limits, &state, Capacities::LeftOut);
-            rows.extend(off_centre.into_iter().chain(unlike).filter(|m| m.required));
+            rows.extend(self.rows_of_sprags(design, &state));
         }
         Ok(Assessment { rows, measures: measures_of_goals })
     }

@@ -174,7 +174,9 @@ fn standing(found: &Search, problem: &ClutchProblem, joint: &Optimize) -> Result
     let variables: Vec<Variable> = joint.variables.iter().map(Variable::at_start).collect();
     let x: Vec<f64> = variables.iter().map(|v| v.start).collect();
     let as_searched = problem.assess_at(&x).map_err(NoSearch::Start)?;
-    let best = problem.at_fidelity(problem.fidelity().sharper()).assess_at(&x).map_err(NoSearch::Start)?;
+    let mut best =
+        problem.at_fidelity(problem.fidelity().sharper()).assess_at(&x).map_err(NoSearch::Start)?;
+    best.rows.extend(problem.besides(&x));
     let file =
         problem.finished_file(&x).map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
     let (after, before) = (problem.value(&best, 0), problem.value(&as_searched, 0));

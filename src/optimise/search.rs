@@ -68,7 +68,8 @@ pub struct Search {
     pub names: Names,
     /// Margins of the given design.
     pub start: Vec<Margin>,
-    /// Margins of the design found, in full and at a tenth of the search's tolerance.
+    /// Margins of the design found, in full and at a tenth of the search's tolerance; behind those that the search had, what `check` asks
+    /// of sprags off centre and unlike.
     pub best: Vec<Margin>,
     /// The same margins as the search had them.
     pub as_searched: Vec<Margin>,
@@ -291,7 +292,7 @@ pub fn search_problem(
         || settled.then(sensitivities).flatten(),
         || rayon::join(|| again(&problem.at_fidelity(problem.fidelity().sharper())), || again(&problem)),
     );
-    let (best, as_searched) = (best?, as_searched?);
+    let (mut best, as_searched) = (best?, as_searched?);
     evaluations += 2;
     evaluations += sensitivity.as_ref().map_or(0, |s| s.evaluations);
     let prices = match &sensitivity {
@@ -306,6 +307,7 @@ pub fn search_problem(
         let fighting = outcome.active.limits.clone();
         outcome.status = Status::Infeasible { least_violation: short, fighting };
     }
+    best.rows.extend(problem.besides(&outcome.x));
     let file = problem
         .finished_file(&outcome.x)
         .map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;

@@ -120,7 +120,7 @@ impl SearchReport<'_> {
 fn decides(rows: &[Margin]) -> Option<String> {
     let least = |searched: bool| {
         rows.iter()
-            .filter(|m| m.required && (m.limit.when == When::Outline) == searched)
+            .filter(|m| m.required && (m.limit.when == When::Outline) == searched && !m.is_not_reached())
             .min_by(|a, b| a.margin().total_cmp(&b.margin()))
     };
     let (asked, searched) = (least(false)?, least(true));

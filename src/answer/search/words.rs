@@ -189,11 +189,12 @@ impl Story {
             )
         } else {
             format!(
-                "no feasible design found: {why} after {} evaluations and {} derivatives{counted}; not held: {}{}",
+                "no feasible design found: {why} after {} evaluations and {} derivatives{counted}; not held: {}{}{}",
                 self.evaluations(),
                 self.derivatives(),
                 self.not_held().join(", "),
-                self.worst()
+                self.worst(),
+                self.besides_search()
             )
         }
     }
@@ -219,6 +220,18 @@ impl Story {
         rows.min_by(|a, b| a.margin().total_cmp(&b.margin())).map_or(String::new(), |m| {
             format!("; worst margin of this nearest design: {}, {}", margin_text(m), m.code())
         })
+    }
+
+    /// That what is not held was not searched for, where that is so.
+    fn besides_search(&self) -> &'static str {
+        let searched = self.margins().len().min(self.as_searched().len());
+        match self.margins()[..searched].iter().all(|m| self.held(m)) {
+            true => {
+                "; a search holds the limits of sprags alike and centred, those off centre and unlike ones are looked at in its end: more \
+                 reserve leaves them more"
+            }
+            false => "",
+        }
     }
 
     /// What to say where the best slip margin is less than the wanted one and nothing else is broken.

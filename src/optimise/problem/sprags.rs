@@ -1,0 +1,25 @@
+//! Rows of sprags one by one: what `check` asks beside what a search holds.
+
+use super::ClutchProblem;
+use crate::design::Design;
+use crate::margin::{Capacities, LoadState, Margin, RunOut, load_state, run_out_margins, unlike_margins};
+
+impl ClutchProblem {
+    /// Required rows of sprags off centre and unlike.
+    pub(super) fn rows_of_sprags(&self, design: &Design, state: &LoadState) -> Vec<Margin> {
+        let off_centre = RunOut::new(design, state)
+            .map(|ring| run_out_margins(design, &self.limits, &ring, Capacities::LeftOut))
+            .unwrap_or_default();
+        let unlike = unlike_margins(design, &self.limits, state, Capacities::LeftOut);
+        off_centre.into_iter().chain(unlike).filter(|m| m.required).collect()
+    }
+
+    /// The same at `x` where the design has such sprags and the problem does not hold them: a search is too dear with them.
+    pub(in crate::optimise) fn besides(&self, x: &[f64]) -> Vec<Margin> {
+        let has = |design: &Design| design.clutch.races.eccentricity.is_some() || design.sharing.is_some();
+        let Some(design) = self.design_at(x).ok().filter(|design| !self.as_checked && has(design)) else {
+            return Vec::new();
+        };
+        load_state(&design).map_or_else(|_| Vec::new(), |state| self.rows_of_sprags(&design, &state))
+    }
+}
