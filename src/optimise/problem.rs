@@ -497,9 +497,9 @@ impl ClutchProblem {
         self.reserve
     }
 
-    /// What a margin keeps: nothing where it is room in the outline, which strains nothing.
+    /// What a margin keeps: nothing where it is room in the outline, which strains nothing, or beside what is searched.
     pub(super) fn kept(&self, m: &Margin) -> f64 {
-        if m.limit.when == When::Outline { 0.0 } else { self.reserve }
+        if m.limit.when == When::Outline || self.is_beside(m) { 0.0 } else { self.reserve }
     }
 
     /// A margin as a constraint, 0 or more being held: what is left of it beyond the reserve.

@@ -167,10 +167,13 @@ impl Story {
                 shown(found.aim, before),
                 shown(found.aim, after),
                 error_of(found.aim, after, self.objective_error()),
-                if reserve > 0.0 {
-                    format!(" with {} % to spare", significant(100.0 * reserve, 2))
-                } else {
-                    String::new()
+                match (reserve > 0.0, self.margins().len() > self.as_searched().len()) {
+                    (false, _) => String::new(),
+                    (true, false) => format!(" with {} % to spare", significant(100.0 * reserve, 2)),
+                    (true, true) => format!(
+                        " with {} % to spare, those of sprags off centre and unlike ones as `check` asks",
+                        significant(100.0 * reserve, 2)
+                    ),
                 },
                 self.start_not_held(),
                 self.evaluations(),

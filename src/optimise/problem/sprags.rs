@@ -14,6 +14,12 @@ impl ClutchProblem {
         off_centre.into_iter().chain(unlike).filter(|m| m.required).collect()
     }
 
+    /// Whether the row is one of [`Self::besides`]: held as `check` has it, without the reserve, which is what it lives on.
+    pub(in crate::optimise) fn is_beside(&self, m: &Margin) -> bool {
+        let of_sprags = ["run-out-", "sprag-"].iter().any(|of| m.limit.code.starts_with(of));
+        !self.as_checked && (m.off_centre || of_sprags)
+    }
+
     /// The same at `x` where the design has such sprags and the problem does not hold them: a search is too dear with them.
     pub(in crate::optimise) fn besides(&self, x: &[f64]) -> Vec<Margin> {
         let has = |design: &Design| design.clutch.races.eccentricity.is_some() || design.sharing.is_some();
