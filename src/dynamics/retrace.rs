@@ -35,6 +35,11 @@ impl RollingTrack {
         Self { arc, legs, peaks, largest }
     }
 
+    /// How many steps it took.
+    pub fn steps(&self) -> usize {
+        self.legs.len()
+    }
+
     /// Figures that a demand is read from: |T|/N of the contact that asks for more, the ends of N_bi. In tension |T|/N says nothing.
     fn read(&self, model: &Model) -> &'static [usize] {
         let outer_asks = !model.outer_holds && self.peaks.tan_outer > self.peaks.tan_inner;

@@ -147,12 +147,9 @@ impl<'a> Desk<'a> {
         settings: &Settings,
         known: &[(Vec<f64>, f64)],
     ) -> Result<Outcome, Refusal> {
-        // Within a scope each evaluation shares threads, of a climb that is alone, too.
-        rayon::scope(|_| {
-            self.run(problem, |problem, run| {
-                let run = SearchRun { known: known.to_vec(), ..run };
-                maximise_least_margin(problem, x0, lo, hi, settings, run)
-            })
+        self.run(problem, |problem, run| {
+            let run = SearchRun { known: known.to_vec(), ..run };
+            maximise_least_margin(problem, x0, lo, hi, settings, run)
         })
     }
 }

@@ -386,9 +386,9 @@ impl ClutchProblem {
         let loaded = || (way.loaded)(k, design, &state);
         let scenes = |wanted: &(dyn Fn(&String) -> bool + Sync)| {
             let asked: Vec<&Scenario> = design.scenarios.iter().filter(|s| wanted(&s.name)).collect();
-            let rows =
-                self.climbs.each(&asked, |(_, scenario)| (way.scene)(k, scenario, state.at_rest(design)));
-            let rows = rows.concat();
+            let steps = |scenario: &&Scenario| self.recent.steps(k, &scenario.name);
+            let rows = |(_, scenario): (usize, &&Scenario)| (way.scene)(k, scenario, state.at_rest(design));
+            let rows = self.climbs.each(&asked, steps, rows).concat();
             // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
             match rows.iter().find(|r| !r.computed()) {
                 Some(row) => Err(NoEvaluation::Refused(row.full_name())),
@@ -470,7 +470,7 @@ impl ClutchProblem {
             Ok(found)
         };
         let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
-        for found in self.climbs.each(&self.corners, at) {
+        for found in self.climbs.each(&self.corners, |_| 0, at) {
             let found = found?;
             all.rows.extend(found.rows);
             all.measures.extend(found.measures);

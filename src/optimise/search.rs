@@ -283,8 +283,12 @@ pub fn search_problem(
     }
     let settled = matches!(outcome.status, Status::Converged | Status::Stalled(_)) && !searched.is_empty();
     let sensitivities = || {
-        let whole = problem.fully();
-        desk.run(&whole, |whole, run| influence(whole, &outcome.x, &lo, &hi, &method.climb, run)).ok()
+        let own = desk.run(&problem, |problem, run| own_influence(problem, &outcome.x, &lo, &hi, &[], run));
+        let by_differences = || {
+            let whole = problem.fully();
+            desk.run(&whole, |whole, run| influence(whole, &outcome.x, &lo, &hi, &method.climb, run)).ok()
+        };
+        own.ok().flatten().or_else(by_differences)
     };
     let again = |problem: &ClutchProblem| problem.assess_at(&outcome.x).map_err(NoSearch::Start);
     desk.begins(if settled { "sensitivities" } else { "optimum in full" });
@@ -295,6 +299,7 @@ pub fn search_problem(
     let (mut best, as_searched) = (best?, as_searched?);
     evaluations += 2;
     evaluations += sensitivity.as_ref().map_or(0, |s| s.evaluations);
+    derivatives += sensitivity.as_ref().map_or(0, |s| s.derivatives);
     let prices = match &sensitivity {
         Some(table) => prices(&problem, &best, &outcome, table, (&lo, &hi), &method.climb),
         None => Vec::new(),

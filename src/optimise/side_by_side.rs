@@ -1,5 +1,6 @@
 //! Whose threads the parts of an evaluation may take while several climbs are under way.
 
+use std::cmp::Reverse;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -34,12 +35,26 @@ impl SideBySide {
         rayon::current_thread_index().is_some() && self.leave_threads()
     }
 
-    /// `of` each of `items`, in their order.
-    pub fn each<T: Sync, R: Send>(&self, items: &[T], of: impl Fn((usize, &T)) -> R + Sync) -> Vec<R> {
-        match self.spreads() {
-            true => items.par_iter().enumerate().map(&of).collect(),
-            false => items.iter().enumerate().map(of).collect(),
+    /// `of` each of `items`, in their order; those of the most `work` begin first, so that none of them is left for the end.
+    pub fn each<T: Sync, R: Send>(
+        &self,
+        items: &[T],
+        work: impl Fn(&T) -> usize,
+        of: impl Fn((usize, &T)) -> R + Sync,
+    ) -> Vec<R> {
+        if !self.spreads() {
+            return items.iter().enumerate().map(of).collect();
         }
+        let mut begun: Vec<(usize, &T, Option<R>)> =
+            items.iter().enumerate().map(|(i, item)| (i, item, None)).collect();
+        begun.sort_by_key(|(_, item, _)| Reverse(work(item)));
+        rayon::in_place_scope_fifo(|scope| {
+            for (i, item, found) in &mut begun {
+                scope.spawn_fifo(|_| *found = Some(of((*i, *item))));
+            }
+        });
+        begun.sort_by_key(|(i, ..)| *i);
+        begun.into_iter().filter_map(|(_, _, found)| found).collect()
     }
 
     /// Both of them.

@@ -170,7 +170,9 @@ impl Design {
         settings: &SearchSettings,
         record: &mut dyn Record,
     ) -> Result<SearchAnswer, NoSearch> {
-        let story = story::run(self, settings, &Desk::new(&settings.follow, record))?;
+        let desk = Desk::new(&settings.follow, record);
+        // Within a scope each evaluation shares threads.
+        let story = rayon::scope(|_| story::run(self, settings, &desk))?;
         let body = SearchBody::of(&story);
         Ok(SearchAnswer { story, left_out: left_out_of(self), body })
     }

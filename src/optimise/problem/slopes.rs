@@ -48,6 +48,14 @@ impl Recent {
         known.iter_mut().find(|past| past.x == x).and_then(what)
     }
 
+    /// Steps that a scene took at a corner in the evaluation before: about those that it will take.
+    pub(super) fn steps(&self, corner: usize, scene: &str) -> usize {
+        let known = self.0.lock().unwrap_or_else(|e| e.into_inner());
+        let scenes = known.front().map(|past| &past.tracks.scenes);
+        let track = scenes.and_then(|scenes| scenes.get(&(corner, scene.to_owned())));
+        track.map_or(0, |(track, _)| track.steps())
+    }
+
     fn keep(&self, x: &[f64], tracks: &Arc<Tracks>) {
         let mut known = self.0.lock().unwrap_or_else(|e| e.into_inner());
         known.truncate(Self::MOST - 1);
@@ -193,7 +201,7 @@ impl Evaluate for ClutchProblem {
             None => self.tracked(x).ok()?.1,
         };
         let of = |(_, at): (usize, &Vec<f64>)| self.beside(at, &tracks);
-        let (here, there) = self.climbs.both(|| self.here(x, &tracks), || self.climbs.each(beside, of));
+        let (here, there) = self.climbs.both(|| self.here(x, &tracks), || self.climbs.each(beside, |_| 0, of));
         let here = here?;
         let change = |there: Option<Vec<f64>>| match there {
             Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
