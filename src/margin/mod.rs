@@ -134,12 +134,26 @@ pub(crate) fn static_margins_until(
 ) -> Result<(LoadState, Vec<Margin>, Option<RunOut>), NoMargins> {
     let state = load_state(design)?;
     let mut rows = load_margins(design, &design.limits, capacities, &state);
-    let ring = if follow.stopped() { None } else { RunOut::new(design, &state) };
-    if let Some(ring) = &ring {
-        rows.extend(run_out_margins_until(design, &design.limits, ring, capacities, follow));
-    }
-    rows.extend(unlike_margins_until(design, &design.limits, &state, capacities, follow));
+    let (of_sprags, ring) = single_sprag_margins(design, &design.limits, capacities, &state, follow);
+    rows.extend(of_sprags);
     Ok((state, rows, ring))
+}
+
+/// The margins of sprags off centre and of unlike ones in the load state `state` of `design`, and the load round the circumference
+/// where the axes lie apart; stopped by `follow`, they mean nothing.
+pub(crate) fn single_sprag_margins(
+    design: &Design,
+    limits: &Limits,
+    capacities: Capacities,
+    state: &LoadState,
+    follow: &Follow,
+) -> (Vec<Margin>, Option<RunOut>) {
+    let ring = if follow.stopped() { None } else { RunOut::new(design, state) };
+    let off_centre =
+        ring.as_ref().map(|ring| run_out_margins_until(design, limits, ring, capacities, follow));
+    let mut rows = off_centre.unwrap_or_default();
+    rows.extend(unlike_margins_until(design, limits, state, capacities, follow));
+    (rows, ring)
 }
 
 /// The margins of the load state `state` of `design` alone.

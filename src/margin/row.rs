@@ -1,6 +1,6 @@
 //! One row: a limit, what it demands, what is allowed, and the margin between them.
 
-use super::limits::Limit;
+use super::limits::{Limit, Of};
 use super::table::{CONTACT, SLIP};
 
 /// Resolution of a margin: what the optimiser leaves of a limit that it stops at. A margin above minus this is
@@ -278,6 +278,12 @@ impl Margin {
     pub fn is_static_pressure(&self) -> bool {
         let key = matches!(self.limit.key, Some("hertz_nominal_mpa" | "hertz_peak_mpa"));
         key && self.scene.is_none() && !self.off_centre
+    }
+
+    /// Whether it is of sprags one by one, off centre or unlike.
+    pub fn of_single_sprags(&self) -> bool {
+        let unlike = matches!(self.limit.of, Of::UnlikePressure | Of::UnlikeFriction);
+        self.off_centre || unlike || matches!(self.limit.of, Of::RunOutEnd | Of::RunOutShare)
     }
 
     /// Whether the row is of the same limit, in the same scenario, as `other`.

@@ -90,8 +90,6 @@ pub struct SearchRun<'a> {
 pub(super) struct Memo<'a> {
     problem: &'a dyn Evaluate,
     pub run: SearchRun<'a>,
-    /// Entries known beforehand; they may lie outside this run's box.
-    given: usize,
     shape: Option<(usize, usize)>,
     asked: HashSet<usize>,
     limit: usize,
@@ -104,11 +102,9 @@ pub(super) struct Memo<'a> {
 
 impl<'a> Memo<'a> {
     pub fn new(problem: &'a dyn Evaluate, run: SearchRun<'a>, limit: usize) -> Self {
-        let given = run.journal.entries.len();
         Memo {
             problem,
             run,
-            given,
             shape: None,
             asked: HashSet::new(),
             limit,
@@ -133,12 +129,11 @@ impl<'a> Memo<'a> {
         self.run.follow.stopped()
     }
 
-    /// Points with margins that this run asked for; where it was stopped, those of the batch cut short too.
+    /// Points with margins that this run asked for; those of a batch cut short too.
     pub fn known(&self) -> impl Iterator<Item = (&Vec<f64>, &Evaluation)> {
         let entries = self.run.journal.entries.iter().enumerate();
-        let stopped = self.stopped();
         entries
-            .filter(move |(i, _)| self.asked.contains(i) || stopped && *i >= self.given)
+            .filter(|(i, _)| self.asked.contains(i))
             .filter_map(|(_, entry)| entry.outcome.as_ref().ok().map(|e| (&entry.x, e)))
     }
 
@@ -176,6 +171,7 @@ impl<'a> Memo<'a> {
             false => fresh.iter().map(one).collect(),
         };
         let complete = computed.iter().all(Option::is_some);
+        let cut_short = !complete || stopped();
         for (x, outcome) in fresh.into_iter().zip(computed) {
             let Some(outcome) = outcome else { continue };
             let outcome = outcome.and_then(|e| e.checked(self.shape));
@@ -184,8 +180,11 @@ impl<'a> Memo<'a> {
             if let Some(watch) = &mut self.run.watch {
                 watch.evaluated(&self.run.journal.entries[at]);
             }
+            if cut_short {
+                self.count(at, self.run.journal.entries[at].outcome.is_err());
+            }
         }
-        if !complete || stopped() {
+        if cut_short {
             return Err(Halt::Interrupted);
         }
         let mut outcomes = Vec::with_capacity(points.len());
@@ -194,9 +193,7 @@ impl<'a> Memo<'a> {
             let mut outcome = self.run.journal.entries[at].outcome.clone();
             outcome = outcome.and_then(|e| e.checked(self.shape));
             self.learn_shape(&outcome);
-            if self.asked.insert(at) && outcome.is_err() {
-                self.failures += 1;
-            }
+            self.count(at, outcome.is_err());
             outcomes.push(outcome.map(|e| e.less(self.clearance)));
         }
         Ok(outcomes)
@@ -214,6 +211,13 @@ impl<'a> Memo<'a> {
             watch.derived(x, along);
         }
         Ok(found)
+    }
+
+    /// The entry at `at` was asked for, and came to nothing where it `failed`.
+    fn count(&mut self, at: usize, failed: bool) {
+        if self.asked.insert(at) && failed {
+            self.failures += 1;
+        }
     }
 
     fn learn_shape(&mut self, outcome: &Result<Evaluation, NoEvaluation>) {

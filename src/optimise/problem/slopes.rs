@@ -201,7 +201,8 @@ impl Evaluate for ClutchProblem {
             None => self.tracked(x).ok()?.1,
         };
         let of = |(_, at): (usize, &Vec<f64>)| self.beside(at, &tracks);
-        let (here, there) = self.climbs.both(|| self.here(x, &tracks), || self.climbs.each(beside, |_| 0, of));
+        let (here, there) =
+            self.climbs.both(|| self.here(x, &tracks), || self.climbs.each(beside, |_| 0, of));
         let here = here?;
         let change = |there: Option<Vec<f64>>| match there {
             Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),

@@ -2,22 +2,21 @@
 
 use super::ClutchProblem;
 use crate::design::Design;
-use crate::margin::{Capacities, LoadState, Margin, RunOut, load_state, run_out_margins, unlike_margins};
+use crate::follow::Follow;
+use crate::margin::{Capacities, LoadState, Margin, load_state, single_sprag_margins};
 
 impl ClutchProblem {
     /// Required rows of sprags off centre and unlike.
     pub(super) fn rows_of_sprags(&self, design: &Design, state: &LoadState) -> Vec<Margin> {
-        let off_centre = RunOut::new(design, state)
-            .map(|ring| run_out_margins(design, &self.limits, &ring, Capacities::LeftOut))
-            .unwrap_or_default();
-        let unlike = unlike_margins(design, &self.limits, state, Capacities::LeftOut);
-        off_centre.into_iter().chain(unlike).filter(|m| m.required).collect()
+        let (mut rows, _) =
+            single_sprag_margins(design, &self.limits, Capacities::LeftOut, state, &Follow::nobody());
+        rows.retain(|m| m.required);
+        rows
     }
 
     /// Whether the row is one of [`Self::besides`]: held as `check` has it, without the reserve, which is what it lives on.
     pub(in crate::optimise) fn is_beside(&self, m: &Margin) -> bool {
-        let of_sprags = ["run-out-", "sprag-"].iter().any(|of| m.limit.code.starts_with(of));
-        !self.as_checked && (m.off_centre || of_sprags)
+        !self.as_checked && m.of_single_sprags()
     }
 
     /// The same at `x` where the design has such sprags and the problem does not hold them: a search is too dear with them.
