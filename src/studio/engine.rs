@@ -179,6 +179,7 @@ impl Engine {
 
 #[cfg(test)]
 mod tests {
+    use super::super::view::Pose;
     use super::*;
 
     const DESIGN: &str = include_str!("../../designs/huang2017-multi-arc.toml");
@@ -208,6 +209,10 @@ mod tests {
         assert!(now.picture.unwrap().svg.contains("class=\"ghost\""));
         assert!(now.margins.windows(2).all(|w| !w[1].required || w[0].margin <= w[1].margin));
         assert!(now.poses.windows(2).all(|w| w[0].torque_nm <= w[1].torque_nm));
+        let by_limit = check.margins.iter().find(|m| m.code == "hertz-nominal-inner").and_then(|m| m.demand);
+        let pressed =
+            |pose: &Pose| by_limit.is_some_and(|mpa| (pose.hertz_inner_pa * 1e-6 / mpa - 1.0).abs() < 1e-12);
+        assert!(now.poses.iter().any(pressed));
     }
 
     #[test]

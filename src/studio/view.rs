@@ -172,6 +172,22 @@ const PER_ARC: usize = 24;
 /// Width of the plots, px.
 const WIDTH: f64 = 380.0;
 
+/// States along the curve, those at nominal and at peak torque among them, so that what is read there is what the limits are held by.
+fn samples(design: &Design, state: &LoadState) -> Vec<(StaticPoint, Closure)> {
+    let curve = &state.curve;
+    let mut samples = curve.samples(f64::INFINITY, PER_ARC);
+    let limits = &design.limits;
+    for torque_nm in [limits.nominal_torque_nm, limits.peak_torque_nm].into_iter().flatten() {
+        if let (Some(point), Some((_, closure))) =
+            (curve.at_torque(torque_nm), curve.closure_at_torque(torque_nm))
+        {
+            let place = samples.partition_point(|(p, _)| p.torque_nm < torque_nm);
+            samples.insert(place, (point, closure));
+        }
+    }
+    samples
+}
+
 impl Solved {
     /// Statics of a design.
     ///
@@ -179,7 +195,7 @@ impl Solved {
     /// [`NoMargins`].
     pub fn new(design: Design) -> Result<Self, NoMargins> {
         let (state, rows, _) = static_margins(&design, Capacities::Wanted)?;
-        let samples = state.curve.samples(f64::INFINITY, PER_ARC);
+        let samples = samples(&design, &state);
         let figures = figures(&design, &state, &rows);
         Ok(Self { design, state, rows, samples, figures })
     }
