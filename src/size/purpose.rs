@@ -86,7 +86,7 @@ pub const PURPOSES: [Purpose; 5] = [
             Given { value: 100.0, from: "guess: the shaft" },
             Given { value: 0.0, from: "the outer race is held" },
         ],
-        keep_contact_rpm: Given { value: 0.0, from: "the outer race is held, nothing lifts the sprags" },
+        keep_contact_rpm: Given { value: 0.0, from: "the outer race is held" },
         lift_off_rpm: None,
         excitation: None,
         free_run_rpm: Given { value: 5.0, from: "guess: the shaft comes to rest first" },

@@ -160,8 +160,20 @@ impl Wish {
         }
     }
 
-    /// Refuse a speed to which contact is to be kept beyond that at which the purpose has the sprags off.
+    /// Refuse a speed to which contact is to be kept where nothing turns that would lift the sprags, and beyond that at which the purpose
+    /// has them off.
     fn check_contact(&self, wanted: &Requirements) -> Result<(), BadRequirement> {
+        let held = self.purpose.filter(|p| p.keep_contact_rpm.value == 0.0);
+        let stands = held.is_some() && wanted.overrun_rad_s[1] == 0.0 && !wanted.carried;
+        if let Some(keep) = self.keep_contact_rad_s.filter(|keep| stands && *keep > 0.0) {
+            return Err(BadRequirement {
+                what: "keep-contact-rpm",
+                found: format!("{} of an outer race that is held", show(keep)),
+                allowed: "nothing: the sprags ride with the outer race; with lift-off-rpm a cage carries them with the inner race, and both are \
+                          its speeds"
+                    .to_owned(),
+            });
+        }
         let lift = wanted.lift_off_rad_s.filter(|_| self.lift_off_rad_s.is_none());
         let Some((keep, lift)) = self.keep_contact_rad_s.zip(lift).filter(|(keep, lift)| keep > lift) else {
             return Ok(());

@@ -181,12 +181,25 @@ fn freed(wanted: &Requirements, settings: &Settings) -> Vec<WouldDo> {
             width_m: wanted.width_m.filter(|_| !width),
             ..*wanted
         };
-        let races = found(&free, settings).ok()?.made.design.clutch.races;
-        let beyond = |m: f64, most: Option<f64>| Some(m).filter(|m| most.is_some_and(|most| *m > most));
-        Some(WouldDo {
-            outside_m: beyond(2.0 * races.outer_outside_radius_m, wanted.outside_m),
-            width_m: beyond(races.width_m, wanted.width_m),
-        })
+        let sizes_m = |asked: &Requirements| {
+            let races = found(asked, settings).ok()?.made.design.clutch.races;
+            Some([2.0 * races.outer_outside_radius_m, races.width_m])
+        };
+        let found_m = sizes_m(&free)?;
+        // That of the smallest volume need not be the smallest.
+        let within_m = |of: usize, most_m: f64| {
+            let mut asked = free;
+            *[&mut asked.outside_m, &mut asked.width_m][of] = Some(most_m);
+            Some(sizes_m(&asked)?[of])
+        };
+        let [outside_m, width_m] = [wanted.outside_m, wanted.width_m];
+        let [outside_m, width_m] = [(0, outside_m), (1, width_m)].map(|(of, too_little_m)| {
+            let (too_little_m, enough_m) = (too_little_m?, found_m[of]);
+            let one = outside != width;
+            let least_m = || closed_in(too_little_m, enough_m, |most_m| within_m(of, most_m));
+            (enough_m > too_little_m).then(|| if one { least_m() } else { enough_m })
+        });
+        Some(WouldDo { outside_m, width_m })
     };
     let asked = [wanted.outside_m.is_some(), wanted.width_m.is_some()];
     let one = [(true, false), (false, true)].into_iter().zip(asked).filter(|(_, asked)| *asked);
@@ -195,6 +208,21 @@ fn freed(wanted: &Requirements, settings: &Settings) -> Vec<WouldDo> {
         true => without(true, true).into_iter().collect(),
         false => one,
     }
+}
+
+/// How near the size that would do is to the least one, as a part of it.
+const NEAR: f64 = 0.01;
+
+/// About the least size between one that is too little and one that is enough, m; `within`: that of a clutch within such a size.
+fn closed_in(mut too_little_m: f64, mut enough_m: f64, within: impl Fn(f64) -> Option<f64>) -> f64 {
+    while enough_m - too_little_m > NEAR * enough_m {
+        let middle_m = 0.5 * (too_little_m + enough_m);
+        match within(middle_m) {
+            Some(m) => enough_m = m.min(middle_m),
+            None => too_little_m = middle_m,
+        }
+    }
+    enough_m
 }
 
 /// The smallest ring of this race space; where none does it, the one that carries most.

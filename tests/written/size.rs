@@ -295,6 +295,7 @@ fn what_an_engineer_asks_for_is_kept_or_named_as_what_prevents_it() {
     let told = (outside_m * 1e4 - 1e-6).ceil() / 10.0;
     assert!(why.to_string().ends_with(&format!("what would do: `outside` {told} mm")), "{why}");
     assert!(sized(&Wish { outside_m: Some(told / 1e3), ..asked }.requirements()).is_ok());
+    assert!(sized(&Wish { outside_m: Some(0.98 * outside_m), ..asked }.requirements()).is_err());
     assert!(tried.iter().any(|t| t.decided_by == Decider::Outside), "{tried:?}");
     // A peak alone is a nominal torque by the factor.
     let peak = Wish { torque_nm: None, peak_nm: Some(780.0), ..asked }.requirements();
@@ -506,6 +507,9 @@ fn wishes_that_cannot_be_are_refused_in_words() {
     );
     let slow = why(Wish { inner_rad_s: rad_s(200.0), ..backstop });
     assert!(slow.contains("inner race turns at 200 rpm") && slow.contains("inner-rpm"), "{slow}");
+    // Without a cage they ride with the outer race, which stands.
+    let held = why(Wish { lift_off_rad_s: None, keep_contact_rad_s: rad_s(300.0), ..backstop });
+    assert!(held.contains("keep-contact-rpm: found 300 rpm") && held.contains("lift-off-rpm"), "{held}");
     let keep =
         why(Wish { purpose: purpose("starter"), keep_contact_rad_s: rad_s(1500.0), ..wish(35.0, 420.0) });
     assert!(keep.contains("keep-contact-rpm: found 1500 rpm; allowed: up to 900 rpm"), "{keep}");

@@ -120,9 +120,11 @@ impl FeedAnswer<'_> {
                 _ => String::new(),
             };
             return format!(
-                "HELD at {at}{between}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake{rests}",
-                degrees(-last.error_rad),
+                "HELD at {at}{between}: a stroke of {} feeds {} at {}, slow ones {} less than the stroke, the windup at the torque of \
+                 the brake{rests}",
                 degrees(self.case.stroke_rad),
+                Unit::Degree.show(last.feed_rad, 5),
+                hertz(last.frequency_hz),
                 degrees(self.windup_rad)
             );
         }
