@@ -157,6 +157,11 @@ pub trait Answer {
     fn held(&self) -> bool {
         self.outcome() == Finding::Held
     }
+
+    /// Why the table is a part of what was asked for; `None`: it is whole.
+    fn part(&self) -> Option<String> {
+        (self.outcome() == Finding::Stopped).then(|| "stopped by Ctrl-C".to_owned())
+    }
 }
 
 /// What an answer about one design says; the faces of [`Answer`] follow from it.

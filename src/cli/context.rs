@@ -210,7 +210,7 @@ impl Context {
     }
 
     /// Hand out an answer that took `run_time_s`: table to `--csv`, page to `--report`, and the object of `--json` or the text. The
-    /// exit code is that of what it comes to.
+    /// exit code is that of what it comes to. The table of a part of an answer says so in a last column.
     ///
     /// # Errors
     /// [`Failure::Failed`] where standard output cannot be written.
@@ -229,7 +229,12 @@ impl Context {
         run_time_s: f64,
     ) -> Result<Exit, Failure> {
         if self.outputs.csv.is_some() {
-            self.outputs.write_csv(&found.table());
+            let table = found.table();
+            let table = match found.part() {
+                Some(why) => table.marked("partial", &why),
+                None => table,
+            };
+            self.outputs.write_csv(&table);
         }
         self.outputs.write_report(|| found.page(&self.provenance(run_time_s)));
         self.answer(&text(found, self.screen))?;

@@ -21,7 +21,8 @@ Examples:
   sprag-design simulate designs/huang2017-bench.toml --scenario in-and-out --report in-and-out.html
 
 The verdict is the answer: sticks, slips-overrunning, slips-engaging, disengages, overloaded and
-at-threshold all exit with 0. A run that meets a limit of work exits with 3, with or without a verdict.";
+at-threshold all exit with 0. A run that meets a limit of work exits with 3, with or without a verdict; so does one whose finer run meets
+it, which leaves --tolerance unreached.";
 
 /// Digits to which a refused number is repeated: more than anybody types.
 const DIGITS: usize = 15;

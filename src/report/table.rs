@@ -318,6 +318,17 @@ impl Table {
         self
     }
 
+    /// With a last column that has the same words in every row.
+    pub fn marked(mut self, key: &str, words: &str) -> Self {
+        let columns = self.columns.len();
+        self.columns.push(Column::text(key, ""));
+        for row in &mut self.rows {
+            row.resize(columns, Cell::Empty);
+            row.push(words.into());
+        }
+        self
+    }
+
     /// The columns that people see.
     fn for_people(&self) -> Self {
         self.those(|column| column.for_people)

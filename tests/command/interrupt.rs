@@ -204,6 +204,20 @@ fn no_robust_design_is_exit_code_1() {
 }
 
 #[test]
+fn the_table_of_what_was_stopped_says_so() {
+    let folder = Folder::new();
+    let csv = folder.path("sprags.csv");
+    let long = ["--scenario", "high-8", "--set", "scenarios[1].duration_s=300", "--csv", &csv];
+    let child = started(&[&["sharing", "designs/unlike-sprags.toml"], &long[..]].concat());
+    std::thread::sleep(Duration::from_secs(2));
+    ctrl_c(&child);
+    assert_eq!(ended(child).status.code(), Some(130));
+    let table = std::fs::read_to_string(csv).unwrap();
+    assert!(table.lines().next().unwrap().ends_with(",partial"), "{table}");
+    assert!(table.lines().skip(1).all(|row| row.contains("stopped by Ctrl-C at ")), "{table}");
+}
+
+#[test]
 fn a_check_of_a_long_scene_is_stopped_within_the_scene() {
     let folder = Folder::new();
     // Five minutes of a starter in which nothing repeats, which nobody waits for here.

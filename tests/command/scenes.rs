@@ -30,6 +30,21 @@ fn a_limit_of_work_is_named_with_what_raises_it() {
     let reason = answer["reason"].as_str().unwrap();
     assert!(reason.contains("limit of 60 steps") && reason.contains("--max-steps "), "{reason}");
     assert!(answer["verdict"].is_null() && answer["stop"] == "step-limit");
+    // The history ends early and says so; of the whole scene it says nothing.
+    let folder = Folder::new();
+    let csv = folder.path("history.csv");
+    let head_of = |args: &[&str]| {
+        let code = run(&[args, &["--csv", &csv, "--force"]].concat()).status.code();
+        (code, rows(&csv).0.last().unwrap().clone())
+    };
+    assert_eq!(head_of(&few), (Some(3), "partial".to_owned()));
+    // Runs that came to the end, and a finer one that did not: a verdict with errors, but not those asked for.
+    let finer = ["simulate", MULTI, "--scenario", "high-10", "--max-steps", "600"];
+    let answer = json(&run(&[&finer[..], &["--json"]].concat()));
+    assert!(answer["verdict"] == "slips-overrunning" && answer["finer_gave_up"] == "step-limit");
+    assert!(answer["tolerance_reached"] == false && answer["error_estimate"].is_number());
+    let (code, last) = head_of(&finer);
+    assert!(code == Some(3) && last != "partial", "{code:?} {last}");
     let few = ["simulate", MULTI, "--scenario", "high-10", "--max-changes", "20", "--json"];
     let answer = json(&run(&few));
     let reason = answer["reason"].as_str().unwrap();

@@ -50,9 +50,19 @@ fn sprags_alike_are_one_run() {
 
 #[test]
 fn a_limit_of_work_is_told_and_exits_with_3() {
-    let ran = run(&["sharing", UNLIKE, "--scenario", "engagement", "--max-steps", "100"]);
+    let folder = Folder::new();
+    let csv = folder.path("sprags.csv");
+    let ran = run(&["sharing", UNLIKE, "--scenario", "engagement", "--max-steps", "100", "--csv", &csv]);
     assert!(stdout(&ran).contains("met its limit of 100 steps at"), "{}", stdout(&ran));
     assert_eq!(ran.status.code(), Some(3));
+    // Each row says that it is of a part of the scene.
+    let table = std::fs::read_to_string(csv).unwrap();
+    let (head, rows) = table.split_once('\n').unwrap();
+    assert!(head.ends_with(",state,partial"), "{head}");
+    assert!(
+        rows.lines().count() > 5 && rows.lines().all(|row| row.contains("met its limit of 100 steps")),
+        "{rows}"
+    );
 }
 
 #[test]

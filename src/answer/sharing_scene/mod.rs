@@ -204,6 +204,10 @@ impl Answer for SharingSceneAnswer<'_> {
         self.verdict_words()
     }
 
+    fn part(&self) -> Option<String> {
+        self.given_up()
+    }
+
     fn table(&self) -> Table {
         self.by_sprag()
     }

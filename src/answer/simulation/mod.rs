@@ -108,8 +108,16 @@ impl Answer for SimulationAnswer {
                 Finding::Stopped
             }
             Some(s) if s.verdict.is_none() || s.stop.gave_up() => Finding::NotKnown,
+            // A finer run that met a limit: the errors told are larger than those asked for.
+            Some(s) if s.gave_up.is_some_and(|run| run.limit.is_some()) => Finding::NotKnown,
             _ => Finding::Shown,
         }
+    }
+
+    /// Where a finer run alone did not come to its end the history is whole.
+    fn part(&self) -> Option<String> {
+        let s = self.simulation().filter(|s| s.finer_gave_up.is_none())?;
+        if s.stop.gave_up() || s.stop == Stop::Interrupted { self.given_up() } else { None }
     }
 
     /// Whether the scene ended as it should.
