@@ -28,7 +28,12 @@ pub struct CompareArgs {
 impl Run for CompareArgs {
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         context.reads(&self.files)?;
-        let designs = self.files.iter().map(|file| context.design(file)).collect::<Result<Vec<_>, _>>()?;
+        let mut failed = Vec::new();
+        let read = |file: &PathBuf| context.design(file).map_err(|why| failed.push(why)).ok();
+        let designs: Vec<_> = self.files.iter().filter_map(read).collect();
+        if let Some(why) = Failure::of_all(failed) {
+            return Err(why);
+        }
         let progress = context.progress("margins", "designs", Some(designs.len() as u64));
         let (found, run_time_s) = timed(|| subjects(designs, &progress.told_by(&context.follow)));
         let subjects = found.map_err(|why| match why {

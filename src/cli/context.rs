@@ -184,7 +184,7 @@ impl Context {
     /// not keep the others from being answered.
     ///
     /// # Errors
-    /// The first [`Failure`], after the answers of all.
+    /// Every [`Failure`], after the answers of all.
     pub fn each(
         &self,
         files: &[PathBuf],
@@ -195,7 +195,7 @@ impl Context {
                 "--csv and --report are of one FILE; `compare` puts several designs side by side on one page",
             ));
         }
-        let (mut worst, mut failed) = (Exit::Held, None);
+        let (mut worst, mut failed) = (Exit::Held, Vec::new());
         for (k, file) in files.iter().enumerate() {
             if k > 0 {
                 self.answer("\n")?;
@@ -203,10 +203,10 @@ impl Context {
             match self.design(file).and_then(|design| one(file, &design)) {
                 Ok(exit) => worst = if exit.code() > worst.code() { exit } else { worst },
                 Err(Failure::Interrupted) => return Err(Failure::Interrupted),
-                Err(why) => failed = failed.or(Some(why)),
+                Err(why) => failed.push(why),
             }
         }
-        failed.map_or(Ok(worst), Err)
+        Failure::of_all(failed).map_or(Ok(worst), Err)
     }
 
     /// Hand out an answer that took `run_time_s`: table to `--csv`, page to `--report`, and the object of `--json` or the text. The

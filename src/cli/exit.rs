@@ -75,6 +75,8 @@ pub enum Failure {
     Failed(String),
     /// Ctrl-C.
     Interrupted,
+    /// Several, of one file each.
+    Several(Vec<Failure>),
 }
 
 /// Messages are wrapped at blanks: a name with hyphens, which may be typed again, stays whole. To be called before the first.
@@ -114,12 +116,26 @@ impl Failure {
         Self::NoClutch(format!("{}: {why}; keys that decide it: {}", file.display(), why.keys()))
     }
 
-    /// For programs: `message`; of a refused design file also `file` and `problems`.
+    /// All of them as one; `None` of none.
+    pub fn of_all(mut all: Vec<Self>) -> Option<Self> {
+        if all.len() > 1 { Some(Self::Several(all)) } else { all.pop() }
+    }
+
+    /// For programs: `message`; of a refused design file also `file` and `problems`; of several, beside what the first has, all
+    /// messages as lines and each whole in `errors`.
     pub fn to_json(&self) -> Value {
+        if let Self::Several(all) = self {
+            let each: Vec<Value> = all.iter().map(Self::to_json).collect();
+            let messages: Vec<&str> = each.iter().filter_map(|error| error["message"].as_str()).collect();
+            let mut error = each.first().cloned().unwrap_or_default();
+            error["message"] = messages.join("\n").into();
+            error["errors"] = each.into();
+            return error;
+        }
         let message = match self {
             Self::Malformed(report) => report.to_string(),
             Self::Failed(text) | Self::NoClutch(text) => text.clone(),
-            Self::Interrupted => "stopped".to_owned(),
+            Self::Interrupted | Self::Several(_) => "stopped".to_owned(),
         };
         let refused = match self {
             Self::Malformed(report) => report.downcast_ref::<DesignError>(),
@@ -130,9 +146,13 @@ impl Failure {
         error
     }
 
-    /// The code that goes with it.
+    /// The code that goes with it, of several the largest.
     pub fn exit(&self) -> Exit {
         match self {
+            Self::Several(all) => {
+                let each = all.iter().map(Self::exit);
+                each.max_by_key(|exit| exit.code()).unwrap_or(Exit::Failed)
+            }
             Self::Malformed(_) | Self::NoClutch(_) => Exit::Malformed,
             Self::Failed(_) => Exit::Failed,
             Self::Interrupted => Exit::Interrupted,

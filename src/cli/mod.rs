@@ -233,13 +233,19 @@ fn ended(args: Vec<String>) -> Exit {
                 // Standard output may be what has failed; standard error says it in words.
                 let _ = output::print_json(&output::signed(json!({ "error": failure.to_json() })));
             }
-            match &failure {
-                Failure::Malformed(report) => output::note_painted(&format!("{report:?}")),
-                Failure::Failed(text) | Failure::NoClutch(text) => output::note(&format!("error: {text}")),
-                Failure::Interrupted => output::note("stopped"),
-            }
+            tell(&failure);
             failure.exit()
         }
+    }
+}
+
+/// A failure in words on standard error.
+fn tell(failure: &Failure) {
+    match failure {
+        Failure::Malformed(report) => output::note_painted(&format!("{report:?}")),
+        Failure::Failed(text) | Failure::NoClutch(text) => output::note(&format!("error: {text}")),
+        Failure::Interrupted => output::note("stopped"),
+        Failure::Several(all) => all.iter().for_each(tell),
     }
 }
 

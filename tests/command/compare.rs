@@ -103,6 +103,25 @@ fn what_differs_is_listed_and_what_does_not_is_not() {
     assert!(row["margins"][0].is_null() && row["margins"][2].is_f64(), "{row}");
 }
 
+/// What is wrong with one file does not hide what is wrong with another.
+#[test]
+fn every_file_that_cannot_be_read_is_named() {
+    for command in ["compare", "check"] {
+        let out = run(&[command, "no-such-a.toml", MULTI, "no-such-b.toml", "--json"]);
+        assert_eq!(out.status.code(), Some(2));
+        let said = String::from_utf8(out.stderr.clone()).unwrap();
+        let last = stdout(&out).lines().last().unwrap().to_owned();
+        let error = &serde_json::from_str::<Value>(&last).unwrap()["error"];
+        assert_eq!(error["errors"].as_array().map(Vec::len), Some(2), "{error}");
+        for name in ["no-such-a.toml", "no-such-b.toml"] {
+            assert!(
+                said.contains(name) && error["message"].as_str().unwrap().contains(name),
+                "{name}: {said}"
+            );
+        }
+    }
+}
+
 #[test]
 fn one_design_or_seven_are_no_comparison() {
     for count in [1, 7] {

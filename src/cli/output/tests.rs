@@ -34,6 +34,7 @@ fn message(failure: Failure) -> String {
         Failure::Malformed(report) => report.to_string(),
         Failure::Failed(text) | Failure::NoClutch(text) => text,
         Failure::Interrupted => "interrupted".into(),
+        Failure::Several(all) => all.into_iter().map(message).collect(),
     }
 }
 
