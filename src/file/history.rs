@@ -21,6 +21,8 @@ pub(super) enum HistoryKind {
 const MOST_ROWS: usize = 100_000;
 /// Faults of one file that are told one by one; the others are counted.
 const MOST_PROBLEMS: usize = 5;
+/// Names of other columns that are told.
+const MOST_NAMES: usize = 4;
 
 impl HistoryKind {
     fn header(self) -> String {
@@ -49,6 +51,23 @@ impl HistoryKind {
             Self::Turn => format!("a finite number of at most {:e} rev/min in magnitude", self.most()),
         }
     }
+}
+
+/// What a first line is that is no header of a history. Names of columns alone are repeated: it may be that of any file.
+fn first_line(cells: &[&str]) -> String {
+    let is_name = |cell: &&str| {
+        cell.starts_with(|c: char| c.is_ascii_alphabetic())
+            && cell.chars().all(|c| c.is_ascii_alphanumeric() || "_ ".contains(c))
+    };
+    if cells.iter().all(|cell| cell.parse::<f64>().is_ok()) {
+        return "a row of numbers without names above it".to_owned();
+    }
+    if cells.len() < 2 || !cells.iter().all(is_name) {
+        return "another first line".to_owned();
+    }
+    let more = cells.len().saturating_sub(MOST_NAMES);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("the columns {}{more}", cells[..cells.len().min(MOST_NAMES)].join(","))
 }
 
 /// Whether a text begins as a history does, comments apart.
@@ -88,10 +107,9 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
         if !named {
             named = true;
             if whole != header {
-                // Not repeated: it may be the first line of any file.
                 let semicolons = whole.contains(';') && whole.replace([';', ' '], ",") == header;
                 let found =
-                    if semicolons { "semicolons between the names" } else { "another first line" }.to_owned();
+                    if semicolons { "semicolons between the names".to_owned() } else { first_line(&fields) };
                 let help = match semicolons {
                     true => "put commas between the cells, and decimals behind a point".to_owned(),
                     false => format!("begin the file with the line {header}"),
@@ -223,6 +241,9 @@ mod tests {
         let torque = HistoryKind::Torque;
         for (text, kind, line, column, words) in [
             ("t,torque_nm\n0,1\n", torque, 1, 1, "time_s,torque_nm"),
+            ("torque_nm,windup_deg,a,b,c\n", torque, 1, 1, "the columns torque_nm,windup_deg,a,b and 1 more"),
+            ("0,1\n0.1,2\n", torque, 1, 1, "a row of numbers without names"),
+            ("user:x,0:0\n0,1\n", torque, 1, 1, "found another first line"),
             ("time_s,torque_nm\n0,1\n0.5,abc\n", torque, 3, 5, "text that is no number"),
             ("# c\ntime_s,torque_nm\n0,1\n0.5,nan\n", torque, 4, 5, "finite"),
             ("time_s,torque_nm\n0,1\n-1,2\n", torque, 3, 1, "at least 0"),
