@@ -47,8 +47,8 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
 fn way_out(why: &NoDeck) -> String {
     match why {
         NoDeck::BeyondCurve { .. } => "; give less with --torque".to_owned(),
-        NoDeck::NoRoom { most_nm: Some(most) } => format!(" (--torque {most})"),
-        NoDeck::NoRoom { most_nm: None } => {
+        NoDeck::NoRoom { most_nm: Some(most), .. } => format!(" (--torque {most})"),
+        NoDeck::NoRoom { most_nm: None, .. } => {
             "; take less torque (--torque) or a finer mesh (--mesh)".to_owned()
         }
         NoDeck::NoTorque => "; give one with --torque".to_owned(),

@@ -32,7 +32,7 @@ pub use read::{NoRows, Reading, ResultRow, at_torque, read};
 use crate::clutch::{Clutch, InnerArc};
 use crate::design::Design;
 use crate::profile::{Outline, OutlineError, Profile, ProfileError};
-use crate::wedge::{StaticPoint, WedgeCurve};
+use crate::wedge::{EndReason, StaticPoint, WedgeCurve};
 use mesh::{Block, Grid, Section, Sector, axial};
 
 /// Where the material is held along the axis.
@@ -118,15 +118,21 @@ pub enum NoDeck {
         allowed: &'static str,
     },
     /// The curve of the design's own contact law ends below the torque.
-    #[error("torque beyond the end of the wedge curve, {end_nm:.4} Nm")]
+    #[error("the curve ends ({}) at {end_nm:.4} Nm, below the {asked_nm} Nm asked", .reason.name())]
     BeyondCurve {
         /// Torque at its end, N m.
         end_nm: f64,
+        /// Torque asked for, N m.
+        asked_nm: f64,
+        /// Why it ends there.
+        reason: EndReason,
     },
-    /// The contacts travel beyond the flanks or the sector, or so near that no mesh fits.
-    #[error("the contacts travel too near to a flank or to the next sector for a mesh at this torque{}",
+    /// A contact travels beyond a flank or the sector, or so near that no mesh fits.
+    #[error("{place} for a mesh at this torque{}",
         .most_nm.map_or_else(String::new, |most| format!("; the largest torque with one is {most} Nm")))]
     NoRoom {
+        /// Which contact is too near to what.
+        place: &'static str,
         /// The largest torque at which one fits, N m, to three digits; nothing where none is known.
         most_nm: Option<f64>,
     },
@@ -240,9 +246,33 @@ struct Plan {
     grid: Grid,
     /// Way of the contacts, mm: of the farther one, with a reserve.
     travel: f64,
-    /// Whether both patches end within fine columns.
-    fits: bool,
+    /// Which patch does not end within fine columns, and what is in its way; `None`: both do.
+    tight: Option<&'static str>,
 }
+
+/// What a contact can be too near to: inner or outer contact, its rear or its front side, the flank or the cut face of the sector.
+const PLACES: [[[&str; 2]; 2]; 2] = [
+    [
+        [
+            "the inner contact is too near to the rear flank",
+            "the inner contact is too near to the sprag behind",
+        ],
+        [
+            "the inner contact travels too near to the front flank",
+            "the inner contact travels too near to the next sprag",
+        ],
+    ],
+    [
+        [
+            "the outer contact travels too near to the rear flank",
+            "the outer contact travels too near to the sprag behind",
+        ],
+        [
+            "the outer contact is too near to the front flank",
+            "the outer contact is too near to the next sprag",
+        ],
+    ],
+];
 
 /// Nothing beyond the end of the curve.
 fn plan(clutch: &Clutch, curve: &WedgeCurve, section: &Section, mesh_m: f64, torque_nm: f64) -> Option<Plan> {
@@ -268,11 +298,18 @@ fn plan(clutch: &Clutch, curve: &WedgeCurve, section: &Section, mesh_m: f64, tor
         .sqrt()
         .max(1.0);
     let half = 1e3 * last.half_width_inner_m * wider + grid.step;
-    let fits = inner + half <= grid.fine(true).1
-        && outer + half <= -grid.fine(false).0
-        && half <= -grid.fine(true).0
-        && half <= grid.fine(false).1;
-    Some(Plan { last, grid, travel, fits })
+    let cut = |i: usize, front: bool| {
+        let (flank, half) = (if front { flanks[i].1 } else { -flanks[i].0 }, halves[i]);
+        PLACES[i][usize::from(front)][usize::from(flank > half)]
+    };
+    let tight = [
+        (inner + half > grid.fine(true).1, cut(0, true)),
+        (outer + half > -grid.fine(false).0, cut(1, false)),
+        (half > -grid.fine(true).0, cut(0, false)),
+        (half > grid.fine(false).1, cut(1, true)),
+    ];
+    let tight = tight.into_iter().find_map(|(is_tight, place)| is_tight.then_some(place));
+    Some(Plan { last, grid, travel, tight })
 }
 
 /// The largest torque up to `end_nm` for which `fits`, rounded down to three digits; nothing where there is none.
@@ -300,7 +337,7 @@ fn model(
     check(options)?;
     let (s, r) = (&clutch.sprags, &clutch.races);
     let curve = WedgeCurve::build(clutch, profile, 0.0).map_err(|e| NoDeck::NoCurve(format!("{e:?}")))?;
-    let no_room = NoDeck::NoRoom { most_nm: None };
+    let no_room = NoDeck::NoRoom { place: "the strut leaves the sprag's flanks no room", most_nm: None };
     let (Some(first), foot_direction) = (profile.arcs.first(), profile.contact_direction(0.0)) else {
         return Err(no_room);
     };
@@ -311,7 +348,8 @@ fn model(
     };
     let end_nm = curve.end_torque_nm();
     let planned = plan(clutch, &curve, &section, options.mesh_m, options.torque_nm);
-    let Plan { last, grid, travel, fits } = planned.ok_or(NoDeck::BeyondCurve { end_nm })?;
+    let beyond = NoDeck::BeyondCurve { end_nm, asked_nm: options.torque_nm, reason: curve.end().0 };
+    let Plan { last, grid, travel, tight } = planned.ok_or(beyond)?;
     // The even stretches alone, four of them, before anything is built.
     let even = 4usize.saturating_mul(grid.fine_count).saturating_mul(grid.even_rows());
     if even > MOST_NODES {
@@ -335,11 +373,11 @@ fn model(
     let bore = if shaft { PINHOLE * r_i } else { bore };
     let sector_rad = std::f64::consts::TAU / s.count as f64;
 
-    if !fits {
+    if let Some(place) = tight {
         let most_nm = largest(end_nm, |torque_nm| {
-            plan(clutch, &curve, &section, options.mesh_m, torque_nm).is_some_and(|p| p.fits)
+            plan(clutch, &curve, &section, options.mesh_m, torque_nm).is_some_and(|p| p.tight.is_none())
         });
-        return Err(NoDeck::NoRoom { most_nm });
+        return Err(NoDeck::NoRoom { place, most_nm });
     }
 
     // The sprag rolled as a rigid body by the overlap: triangle (9) with OC_i shorter and OC_e longer.

@@ -157,7 +157,11 @@ fn senseless_options_are_refused_by_name() {
     ));
     let solid = Variant::Solid { layers: 0 };
     assert!(matches!(refused(Options { variant: solid, ..good }), NoDeck::Option { name: "layers", .. }));
-    assert!(matches!(refused(Options { torque_nm: 1e5, ..good }), NoDeck::BeyondCurve { .. }));
+    let beyond = refused(Options { torque_nm: 1e5, ..good });
+    assert!(
+        matches!(beyond, NoDeck::BeyondCurve { .. }) && beyond.to_string().contains("(off-profile)"),
+        "{beyond}"
+    );
     assert!(matches!(refused(Options { mesh_m: 1e-9, ..good }), NoDeck::TooFine { .. }));
     assert!(matches!(refused(Options { mesh_m: 0.01, ..good }), NoDeck::NoRoom { .. }));
 }
