@@ -174,6 +174,32 @@ fn a_small_amplitude_is_the_linear_forced_response() {
     }
 }
 
+/// The natural frequencies told are those of small disturbances of the equations of motion: Floquet multipliers exp(lambda T) of a motion
+/// that hardly swings.
+#[test]
+fn natural_frequencies_are_those_of_small_disturbances() {
+    for (file, name, abutment) in
+        [(SINGLE, "low-6", 5000.0), (MULTI, "rated-45", 5000.0), (MULTI, "low-6", 200.0)]
+    {
+        let at = |hertz| scene(file, name, 1e-3, hertz, abutment);
+        let modes = prepare(&at(100.0)).unwrap().train_modes().unwrap();
+        assert_eq!(modes.len(), 2);
+        // So fast that no angle of a multiplier goes beyond half a turn.
+        let hertz = 5.0 * modes[1].frequency_hz;
+        let orbit = steady(&at(hertz)).1.rolling.unwrap();
+        let rate = |[re, im]: &[f64; 2]| [re.hypot(*im).ln(), im.atan2(*re)].map(|x| x * hertz);
+        let mut found: Vec<[f64; 2]> = orbit.multipliers.iter().map(rate).filter(|l| l[1] > 0.0).collect();
+        found.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        assert_eq!(found.len(), 2, "{:?}", orbit.multipliers);
+        for (mode, [growth, turns]) in modes.iter().zip(found) {
+            let size = growth.hypot(turns);
+            println!("{name} {abutment}: {mode:?} against {} Hz, {}", size / TAU, -growth / size);
+            close(mode.frequency_hz, size / TAU, 1e-3, name);
+            assert!((mode.damping_ratio + growth / size).abs() < 1e-3, "{name}: {growth} {turns}");
+        }
+    }
+}
+
 /// Both races together on a soft abutment: a swing that nothing damps is no instability; what decides is the clutch's own.
 ///
 /// The damper sits between the races. Of the swing of both on the abutment they take r = k_ab J_i/(k J) of it against one
@@ -330,6 +356,9 @@ fn the_command_in_every_form() {
     let needs = state["required_static_friction"].as_f64().unwrap();
     assert_eq!(needs.to_bits(), found.required_friction.unwrap().to_bits());
     assert!(one["error_estimate"]["required_static_friction"].as_f64().unwrap() < 1e-6);
+    let natural = prepare(&scene(MULTI, "high-6", 6.0, 100.0, 5000.0)).unwrap().train_modes().unwrap();
+    assert_eq!(one["eigenfrequencies"][1]["frequency_hz"].as_f64(), Some(natural[1].frequency_hz));
+    assert!(stdout(&run(&args)).contains("Natural frequencies, clutch engaged under the mean torque of "));
     assert!((state["work_in_j"].as_f64().unwrap() / state["lost_j"].as_f64().unwrap() - 1.0).abs() < 1e-5);
     let ranges = ["--frequency", "60:120", "--amplitude", "2:9", "--points", "3x2"];
     let map = run(&[&args[..], &ranges, &["--csv", &csv, "--report", &page, "--quiet"]].concat());

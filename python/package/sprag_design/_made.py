@@ -301,6 +301,8 @@ class Resonance(_Common):
     """Static friction that there is."""
     amplitudes_left: int
     """Amplitudes that a stop has left out."""
+    eigenfrequencies: tuple[dict[str, Any], ...]
+    """Small free swings of both races about the mean torque with the clutch engaged, lowest first."""
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each state. Needs pandas."""

@@ -2,6 +2,7 @@
 
 use super::ResonanceAnswer;
 use crate::answer::Said;
+use crate::answer::simulation::Eigenfrequency;
 use crate::dynamics::Run;
 use crate::report::{Cell, Rows, Unit};
 use crate::scenario::{MotionKind, Steady};
@@ -12,6 +13,8 @@ use serde::Serialize;
 pub struct ResonanceBody<'a> {
     /// Amplitudes that a stop has left out.
     pub amplitudes_left: usize,
+    /// Small free swings of both races about the mean torque with the clutch engaged, lowest first.
+    pub eigenfrequencies: &'a [Eigenfrequency],
     /// Whether both contacts roll everywhere.
     pub rolls: bool,
     /// Name of the scenario.
@@ -29,6 +32,7 @@ impl<'a> ResonanceBody<'a> {
         Self {
             scenario: &answer.scenario.name,
             amplitudes_left: answer.amplitudes_left(),
+            eigenfrequencies: &answer.eigenfrequencies,
             verdict: answer.verdict(),
             static_friction: answer.friction,
             rolls: answer.rolls(),

@@ -7,12 +7,13 @@ mod words;
 pub use body::{ResonanceBody, ResonanceErrors, StateLine};
 
 use super::left_out::{LeftOut, left_out_of};
+use super::simulation::{Eigenfrequency, train::eigenfrequencies};
 use super::{Finding, Said, example_torque_nm};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::numeric::setting::{BadSetting, all_in_range, in_range};
 use crate::report::{Cell, Page, Screen, Table, Tone};
-use crate::scenario::{MotionKind, NoScenario, ResonanceCell, Settings, Steady, closely, resonance};
+use crate::scenario::{MotionKind, NoScenario, ResonanceCell, Settings, Steady, closely, prepare, resonance};
 use serde_json::Value;
 
 /// States of a table on a terminal.
@@ -38,6 +39,9 @@ pub struct ResonanceAnswer<'a> {
     finer: Option<Steady>,
     /// Amplitudes asked for.
     asked: usize,
+    /// Small free swings of both races about the mean torque, clutch engaged and outer race on its abutment, lowest first; none without a mean
+    /// torque that is carried.
+    pub eigenfrequencies: Vec<Eigenfrequency>,
     /// Rows by amplitude, each by frequency.
     pub rows: Vec<Vec<ResonanceCell>>,
 }
@@ -179,6 +183,7 @@ impl Design {
             return Err(NoResonance::Drivetrain);
         }
         question.validate().map_err(NoResonance::Setting)?;
+        let eigenfrequencies = eigenfrequencies(&prepare(scenario).map_err(NoResonance::NoStart)?);
         in_range("tolerance", settings.tolerance, RESONANCE_TOLERANCES).map_err(NoResonance::Setting)?;
         let or_own = |asked: &[f64], own: f64| if asked.is_empty() { vec![own] } else { asked.to_vec() };
         let frequencies = or_own(&question.frequencies_hz, frequency_hz);
@@ -206,6 +211,7 @@ impl Design {
             tolerance: settings.tolerance,
             finer,
             asked,
+            eigenfrequencies,
             rows,
         })
     }

@@ -1,6 +1,8 @@
 //! What periodic states come to, in words.
 
 use super::ResonanceAnswer;
+use crate::answer::simulation::Eigenfrequency;
+use crate::clutch::ScenarioKind;
 use crate::report::{Unit, significant};
 use crate::scenario::{MotionKind, ResonanceCell};
 
@@ -66,11 +68,17 @@ impl ResonanceAnswer<'_> {
                 significant(self.friction, 3),
             )
         });
-        let ends = self.count(MotionKind::Overloaded) + self.count(MotionKind::Disengages) > 0;
-        let ends = ends.then(|| {
-            "overloaded, disengages: no motion repeats there, the swing carries the sprag beyond the end of the curve, \
-             off its profile or over its highest point, or farther from the race than is followed"
-                .to_owned()
+        let ended =
+            |c: &&ResonanceCell| matches!(c.state.kind, MotionKind::Overloaded | MotionKind::Disengages);
+        let ends = self.cells().any(|c| ended(&c)).then(|| {
+            let margin = match self.cells().filter(ended).any(|c| c.state.slip_margin.is_some()) {
+                true => "; a slip margin there is what rolling lacks in friction, which would keep the clutch from it",
+                false => "",
+            };
+            format!(
+                "overloaded, disengages: no motion repeats there, the swing carries the sprag beyond the end of the curve, \
+                 off its profile or over its highest point, or farther from the race than is followed{margin}"
+            )
         });
         let neutral = self.cells().filter_map(|c| {
             let motion = c.state.motion.as_ref().ok()?;
@@ -86,6 +94,7 @@ impl ResonanceAnswer<'_> {
             )
         });
         let list = [
+            self.natural_words(),
             most,
             ends,
             neutral,
@@ -96,6 +105,21 @@ impl ResonanceAnswer<'_> {
             ),
         ];
         list.into_iter().flatten().collect()
+    }
+}
+
+impl ResonanceAnswer<'_> {
+    /// The natural frequencies; nothing where there are none.
+    fn natural_words(&self) -> Option<String> {
+        let ScenarioKind::TorsionalExcitation { preload_nm, .. } = self.scenario.kind else { return None };
+        let all: Vec<String> = self.eigenfrequencies.iter().map(Eigenfrequency::words).collect();
+        (!all.is_empty()).then(|| {
+            format!(
+                "Natural frequencies, clutch engaged under the mean torque of {}: {}",
+                Unit::NewtonMetre.show(preload_nm, 4),
+                all.join("; ")
+            )
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! The figures of a simulation by their keys in JSON.
 
-use super::train::{Eigenfrequency, eigenfrequencies};
+use super::train::{Eigenfrequency, of_drivetrain};
 use super::{Ran, SimulationErrors};
 use crate::answer::left_out::LeftOut;
 use crate::answer::roll_over::BeyondBody;
@@ -449,7 +449,7 @@ impl SimulationBody {
                 .filter(|_| s.stop != Stop::Interrupted)
                 .map(|e| SimulationErrors::of(scene, prepared, s, e)),
             energy_balance: s.energy.as_ref().map(Energy::of),
-            eigenfrequencies: eigenfrequencies(prepared),
+            eigenfrequencies: of_drivetrain(prepared),
             assumptions: scene.scenario.assumptions().to_vec(),
             tolerance_reached: (scene.method != "published" && s.stop != Stop::Interrupted)
                 .then_some(s.tolerance_reached),

@@ -1,6 +1,6 @@
 //! The figures of a simulation as people read them: a table with errors.
 
-use super::train::eigenfrequencies;
+use super::train::of_drivetrain;
 use super::{LIFT_OFF_SEARCH_RAD_S, Ran};
 use crate::answer::check::{NONE_SUFFICES, OVERLOADED};
 use crate::clutch::ScenarioKind;
@@ -188,14 +188,8 @@ fn motion(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulation) {
         );
         f.word("energy balance", &balance);
     }
-    for (i, mode) in eigenfrequencies(prepared).iter().enumerate() {
-        let damped = format!(
-            "{}, damping ratio {}, {} moves most",
-            Unit::Hertz.show(mode.frequency_hz, 6),
-            significant(mode.damping_ratio, 3),
-            mode.moves
-        );
-        f.word(&format!("eigenfrequency {}, clutch engaged", i + 1), &damped);
+    for (i, mode) in of_drivetrain(prepared).iter().enumerate() {
+        f.word(&format!("eigenfrequency {}, clutch engaged", i + 1), &mode.words());
     }
     f.count("changes between sticking, slipping and open", s.events);
     f.count("steps, all runs", s.steps);

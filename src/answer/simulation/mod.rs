@@ -14,7 +14,7 @@ mod settings;
 mod slip;
 mod stretch;
 mod table;
-mod train;
+pub(in crate::answer) mod train;
 pub(in crate::answer) mod unfelt;
 mod verdict;
 

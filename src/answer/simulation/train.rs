@@ -6,7 +6,7 @@ use super::page::envelope;
 use super::stretch::Stretch;
 use crate::answer::page::half;
 use crate::dynamics::NodeMotion;
-use crate::report::Unit;
+use crate::report::{Unit, significant};
 use crate::scenario::{Prepared, Simulation};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -24,16 +24,32 @@ pub struct Eigenfrequency {
     pub shape: BTreeMap<String, f64>,
 }
 
+impl Eigenfrequency {
+    /// The frequency with its damping and what moves most.
+    pub(in crate::answer) fn words(&self) -> String {
+        format!(
+            "{}, damping ratio {}, {} moves most",
+            Unit::Hertz.show(self.frequency_hz, 6),
+            significant(self.damping_ratio, 3),
+            self.moves
+        )
+    }
+}
+
 /// The eigenfrequencies of a scene with a drivetrain, lowest first; none where the clutch does not engage.
-pub(super) fn eigenfrequencies(prepared: &Prepared) -> Vec<Eigenfrequency> {
-    let modes = prepared.model.drive.train.as_ref().and_then(|_| prepared.train_modes());
+pub(super) fn of_drivetrain(prepared: &Prepared) -> Vec<Eigenfrequency> {
+    if prepared.model.drive.train.is_some() { eigenfrequencies(prepared) } else { Vec::new() }
+}
+
+/// The eigenfrequencies of races and drivetrain of a scene with the clutch engaged, lowest first; none where it does not engage.
+pub(in crate::answer) fn eigenfrequencies(prepared: &Prepared) -> Vec<Eigenfrequency> {
     let one = |m: crate::dynamics::TrainMode| Eigenfrequency {
         frequency_hz: m.frequency_hz,
         damping_ratio: m.damping_ratio,
         moves: m.moves,
         shape: m.shape.into_iter().collect(),
     };
-    modes.into_iter().flatten().map(one).collect()
+    prepared.train_modes().into_iter().flatten().map(one).collect()
 }
 
 /// One column of an inertia: what its name ends in, its unit, and how it is taken.
