@@ -4,7 +4,7 @@ use super::change::Next;
 use super::cusp::{cusp, near_the_cusp, towards_the_cusp_s};
 use super::energy::Audit;
 use super::events::{EVENTS, INNER, LOWER, OUTER, Probe, UPPER, event, probe};
-use super::model::{Grip, Mode, Model, N_STATE, Place};
+use super::model::{Grip, Mode, Model, N_STATE, Place, SLIP};
 use super::probes::{NeverPositive, Observed, Probes, Trail};
 use super::repeat::Repeat;
 use super::run::{FastMotion, Run, RunSettings, Stop, tolerance_at};
@@ -497,15 +497,12 @@ where
             y[0] -= miss / end.rho;
         }
         let before = self.run.state;
-        if mode.place != Place::Open && !mode.is_off() {
-            for (record, grip, i) in
-                [(&mut self.run.inner, mode.inner, 8), (&mut self.run.outer, mode.outer, 9)]
-            {
-                if matches!(grip, Grip::Slip(_)) {
-                    record.time_s += t - step.t();
-                    record.net_m += y[i] - before[i];
-                    record.distance_m += (y[i] - before[i]).abs();
-                }
+        let records = [&mut self.run.inner, &mut self.run.outer];
+        for (i, (record, slips)) in (SLIP..).zip(records.into_iter().zip(mode.slips_under_load())) {
+            if slips {
+                record.time_s += t - step.t();
+                record.net_m += y[i] - before[i];
+                record.distance_m += (y[i] - before[i]).abs();
             }
         }
         if mode.place == Place::Carried && self.run.engaged.is_some() {

@@ -11,6 +11,8 @@ use crate::wedge::{WedgeCurve, WedgePoint};
 
 /// Length of the state: 4 angles (rad), 4 rates (rad/s), signed slip distances at A and B (m).
 pub const N_STATE: usize = 10;
+/// Where in it the distances at A and, behind it, at B stand; surfaces that do not touch add to them too.
+pub(super) const SLIP: usize = 8;
 /// alpha, phi, theta_bi, theta_be, their rates, slip at A, slip at B.
 pub type State = [f64; N_STATE];
 
@@ -57,6 +59,12 @@ impl Mode {
     /// Whether a cage carries sprags that are off the outer race.
     pub fn is_off(&self) -> bool {
         self.place == Place::Carried && self.inner == Self::OFF
+    }
+
+    /// Whether A and B slip under load, that is in contact.
+    pub fn slips_under_load(&self) -> [bool; 2] {
+        let touches = self.place != Place::Open && !self.is_off();
+        [self.inner, self.outer].map(|grip| touches && matches!(grip, Grip::Slip(_)))
     }
 }
 

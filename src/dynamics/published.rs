@@ -161,6 +161,7 @@ fn keep(run: &mut Run, t: f64, mode: Mode, forces: Forces, settings: &PublishedS
     }
     let due = settings.duration_s * run.samples.len() as f64 / (settings.samples.max(2) - 1) as f64;
     if run.samples.len() < settings.samples && t >= due - 0.5 * h {
-        run.samples.push(Sample { t, state: run.state, forces, mode });
+        let slip_m = [run.inner.net_m, run.outer.net_m];
+        run.samples.push(Sample { t, state: run.state, slip_m, forces, mode });
     }
 }

@@ -352,6 +352,9 @@ where
             for i in (0..N).filter(|&i| runs_on(model, i)) {
                 sample.state[i] += *later * drift[i];
             }
+            for (slip, by) in sample.slip_m.iter_mut().zip([added[2], added[5]]) {
+                *slip += *later * by;
+            }
         }
         self.taken.sort_by_key(|t| t.0);
         driver.watch.next_sample =

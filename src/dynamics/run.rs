@@ -196,6 +196,8 @@ pub struct Sample<const N: usize = N_STATE> {
     pub t: f64,
     /// State.
     pub state: [f64; N],
+    /// Signed slip at A and B since the start, m, as [`SlipRecord::net_m`]: what surfaces move past one another without contact is none.
+    pub slip_m: [f64; 2],
     /// Forces there.
     pub forces: Forces,
     /// Mode there.

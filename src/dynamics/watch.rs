@@ -1,7 +1,7 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
 use super::events::{FIGURES, N_BE, N_BI, Probe, probe};
-use super::model::{Grip, Mode, Model};
+use super::model::{Grip, Mode, Model, SLIP};
 use super::probes::{Observed, Probes, parabola};
 use super::repeat::Repeat;
 use super::run::{Run, RunSettings, Sample};
@@ -90,7 +90,7 @@ impl<'a> Watch<'a> {
             while self.next_sample < samples && self.sample_time(self.next_sample) <= t_end {
                 let t = self.sample_time(self.next_sample);
                 let state = d.at(t);
-                let sample = self.sample(mode, t, state);
+                let sample = self.sample(run, t, state);
                 run.samples.push(sample);
                 self.next_sample += 1;
             }
@@ -98,7 +98,7 @@ impl<'a> Watch<'a> {
         run.peaks = peaks;
         if let Some(repeat) = repeat.filter(|repeat| samples > 0 && repeat.wants_template(t_end)) {
             let d = step.dense(rhs, &mut run.counters)?;
-            repeat.sample_template(t_end, |t| self.sample(mode, t, d.at(t)));
+            repeat.sample_template(t_end, |t| self.sample(run, t, d.at(t)));
         }
         Ok(())
     }
@@ -173,8 +173,14 @@ impl<'a> Watch<'a> {
         from + (until - from) * i as f64 / (self.settings.samples.max(2) - 1) as f64
     }
 
-    fn sample<const N: usize>(&self, mode: Mode, t: f64, state: [f64; N]) -> Sample<N> {
-        Sample { t, state, forces: self.model.forces(&mode, t, &state), mode }
+    /// `state` at `t` (s) within the step that begins where `run` stands.
+    fn sample<const N: usize>(&self, run: &Run<N>, t: f64, state: [f64; N]) -> Sample<N> {
+        let (mode, records) = (run.mode, [run.inner, run.outer]);
+        let slips = mode.slips_under_load();
+        let slip_m = std::array::from_fn(|i| {
+            records[i].net_m + if slips[i] { state[SLIP + i] - run.state[SLIP + i] } else { 0.0 }
+        });
+        Sample { t, state, slip_m, forces: self.model.forces(&mode, t, &state), mode }
     }
 
     /// Whether something at `t` (s) is to be a sample beside the equidistant ones.
@@ -186,7 +192,7 @@ impl<'a> Watch<'a> {
     /// The mode of `run` has changed at `t` (s).
     pub(super) fn mark<const N: usize>(&self, run: &mut Run<N>, t: f64) {
         if self.marks(t) && run.marked < self.settings.samples {
-            run.samples.push(self.sample(run.mode, t, run.state));
+            run.samples.push(self.sample(run, t, run.state));
             run.marked += 1;
         }
     }
@@ -194,7 +200,7 @@ impl<'a> Watch<'a> {
     /// Extreme `i` of `run` so far is at `t` (s).
     fn keep_extreme<const N: usize>(&self, run: &mut Run<N>, i: usize, t: f64, state: [f64; N]) {
         if self.marks(t) {
-            run.extremes[i] = Some(self.sample(run.mode, t, state));
+            run.extremes[i] = Some(self.sample(run, t, state));
         }
     }
 

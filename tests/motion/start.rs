@@ -149,3 +149,26 @@ fn the_file_names_the_start_and_kinds_that_have_none_refuse_it() {
     assert!(engages != bench && Design::parse(&engages, "designs/tail.toml").is_err());
     assert!(parse("start = \"loose\"\n").is_err());
 }
+
+/// A history tells of slip what the figures tell; surfaces that move past one another without contact do not slip.
+#[test]
+fn the_slip_of_a_history_is_that_of_the_figures() {
+    let bench = Design::read(Path::new("designs/huang2017-bench.toml")).unwrap();
+    for (name, apart) in [
+        ("high-10-without-spring", true),
+        ("engagement-without-spring", true),
+        ("engagement-weak-spring", false),
+        ("in-and-out", false),
+    ] {
+        let settings = Settings { samples: 400, ..Settings::default() };
+        let s = simulate(bench.scenario(name).unwrap(), &settings).unwrap();
+        let last = s.samples.last().unwrap();
+        let before = s.engaged.map_or([0.0; 2], |e| [e.inner.net_m, e.outer.net_m]);
+        for (i, net_m) in [s.inner.net_m, s.outer.net_m].into_iter().enumerate() {
+            let shown = last.slip_m[i] - before[i];
+            println!("{name} {i}: {shown:e} against {net_m:e}, moved {:e}", last.state[8 + i]);
+            assert!((shown - net_m).abs() < 1e-12, "{name} {i}: {shown:e} {net_m:e}");
+        }
+        assert!(!apart || (last.state[9] - last.slip_m[1]).abs() > 1e-5, "{name}");
+    }
+}

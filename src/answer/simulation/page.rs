@@ -281,9 +281,9 @@ fn friction(
 
 /// Slip of both contacts since the clutch engaged, m: the overrun before would hide it.
 fn slipped(s: &Simulation, r: &HistoryRow) -> [f64; 2] {
-    let (from_s, base) = s.engaged.map_or((0.0, [0.0; 2]), |e| (e.t_s, [e.state[8], e.state[9]]));
-    let y = &r.sample.state;
-    if r.sample.t < from_s { [0.0; 2] } else { [y[8] - base[0], y[9] - base[1]] }
+    let (from_s, base) = s.engaged.map_or((0.0, [0.0; 2]), |e| (e.t_s, [e.inner.net_m, e.outer.net_m]));
+    let slip = r.sample.slip_m;
+    if r.sample.t < from_s { [0.0; 2] } else { [slip[0] - base[0], slip[1] - base[1]] }
 }
 
 fn largest_slip_m(s: &Simulation, rows: &[HistoryRow]) -> f64 {

@@ -76,7 +76,7 @@ fn of_train<const N: usize>(y: &[f64; N]) -> [f64; MOST_MORE] {
 }
 
 fn sample<const N: usize>(s: Sample<N>) -> Sample {
-    Sample { t: s.t, state: of_clutch(&s.state), forces: s.forces, mode: s.mode }
+    Sample { t: s.t, state: of_clutch(&s.state), slip_m: s.slip_m, forces: s.forces, mode: s.mode }
 }
 
 /// The run of the clutch, with that of the drivetrain beside it.
