@@ -3,7 +3,7 @@
 use crate::clutch::LAWS;
 use crate::design::{LIMIT_KEYS, NEW_SCENES, OVERRUN, Objective, did_you_mean};
 use crate::file::{
-    SCENARIO_KINDS, VARIABLES, allowed, keys_of, paths_of, shape_of, unit_of_key, variable_path,
+    KindKeys, SCENARIO_KINDS, VARIABLES, allowed, keys_of, paths_of, shape_of, unit_of_key, variable_path,
 };
 use crate::margin::{LIMITS, When, limit_of};
 use crate::scenario::FIGURES;
@@ -209,6 +209,19 @@ fn bare(name: &str) -> Option<Explanation> {
     }
 }
 
+/// Of the `keys` of a scenario those of every kind, and those of each.
+fn keys_by_kind(keys: &[&str]) -> Vec<(&'static str, String)> {
+    let of_a_kind =
+        |key: &&&str| SCENARIO_KINDS.iter().any(|k| k.required.contains(*key) || k.optional.contains(*key));
+    let of_any: Vec<&str> = keys.iter().filter(|key| !of_a_kind(key)).copied().collect();
+    let one = |kind: &KindKeys| {
+        let may = kind.optional.join(", ");
+        let may = if may.is_empty() { may } else { format!("; may have {may}") };
+        ("by kind", format!("{}: needs {}{may}", kind.name, kind.required.join(", ")))
+    };
+    std::iter::once(("of any kind", of_any.join(", "))).chain(SCENARIO_KINDS.iter().map(one)).collect()
+}
+
 /// Units in a description as people read them.
 fn in_micrometres(text: &str) -> String {
     text.replace(", um", ", µm").replace("N/um", "N/µm")
@@ -240,6 +253,9 @@ fn key(name: &str) -> Option<Explanation> {
     // Of an array of tables those of one row.
     let keys = [path.clone(), format!("{path}[0]")].iter().flat_map(|at| keys_of(at)).collect::<Vec<_>>();
     lines.push(if keys.is_empty() { ("allowed", allowed(schema)) } else { ("keys", keys.join(", ")) });
+    if path == "scenarios" {
+        lines.extend(keys_by_kind(&keys));
+    }
     if path != name {
         lines.push((
             "try",
@@ -299,6 +315,14 @@ mod tests {
         let keys =
             |name: &str| explain(name).unwrap().lines.iter().find(|l| l.0 == "keys").unwrap().1.clone();
         assert!(keys("scenarios").contains("preload_nm") && keys("races").contains("width_mm"));
+        // Every key of a scenario belongs to a kind, or to all of them.
+        let scenes = explain("scenarios").unwrap();
+        let of = |heading: &str| {
+            scenes.lines.iter().filter(|l| l.0 == heading).map(|l| l.1.as_str()).collect::<Vec<_>>()
+        };
+        assert_eq!(of("of any kind"), ["contact, friction, kind, material, name, races, sprags, spring"]);
+        assert_eq!(of("by kind").len(), SCENARIO_KINDS.len());
+        assert_eq!(of("by kind")[0], "static: needs torque_nm; may have start");
         assert!(of_arc("r_i2_mm").unwrap().starts_with("radius of inner arc 2;"));
         assert!(of_arc("junction_1_rad").unwrap().contains("arc 1 gives way to arc 2;"));
         // A key without its table: the one that there is, or each.
