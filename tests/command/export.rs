@@ -30,7 +30,7 @@ fn other_formats_and_senseless_flags_are_refused_with_code_2() {
         assert!(text.contains(format) && text.contains("calculix"), "{text}");
     }
     for (flags, word) in [
-        (&["--torque", "1e6"][..], "wedge curve"),
+        (&["--torque", "1e6"][..], "the curve ends (off-profile)"),
         (&["--mesh", "1e-6"], "nodes"),
         (&["--mesh", "5"], "too near"),
         (&["--increments", "0"], "increments"),

@@ -158,7 +158,6 @@ fn the_slip_of_a_history_is_that_of_the_figures() {
         ("high-10-without-spring", true),
         ("engagement-without-spring", true),
         ("engagement-weak-spring", false),
-        ("in-and-out", false),
     ] {
         let settings = Settings { samples: 400, ..Settings::default() };
         let s = simulate(bench.scenario(name).unwrap(), &settings).unwrap();
