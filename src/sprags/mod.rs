@@ -19,7 +19,7 @@ use crate::dynamics::{
 use crate::friction::Stribeck;
 use crate::scenario::{NoScenario, Prepared, Settings, Verdict, prepare, touch};
 use crate::sharing::{Asked, Idle, OneSprag, Unlike};
-use crate::wedge::{AxisTurns, NoCurve, OverEnd, SpragDeviation, WedgeCurve};
+use crate::wedge::{AxisTurns, NoClosure, NoCurve, OverEnd, SpragDeviation, WedgeCurve};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -64,6 +64,13 @@ pub enum NoEachSprag {
     /// The sprag of this index has no curve.
     #[error("sprag {number}: {1}", number = .0 + 1)]
     Curve(usize, NoCurve),
+    /// The sprag of this index does not fit its gap everywhere that the axes may lie, up to this far apart, m.
+    #[error(
+        "sprag {number}: the axes may come to lie so far apart in this scene that its gap is too narrow or too wide for \
+             it; bring them nearer, stiffen their bearings, or give the scene smaller torques",
+        number = .0 + 1
+    )]
+    OffCentre(usize, f64),
     /// There are more unlike sprags than this.
     #[error(
         "more than {0} unlike sprags: leave the bounds of [sharing] at 0 and give those that matter in its list of \
@@ -469,7 +476,10 @@ fn stand_off_centre(
 ) -> Result<(), NoEachSprag> {
     let table = |g: usize| {
         let of = AxisTurns::new(&groups[g].model.curve, reach_m);
-        of.map(Arc::new).map_err(|why| NoEachSprag::Curve(kinds[g], why))
+        of.map(Arc::new).map_err(|why| match why {
+            NoClosure::RolledOver => NoEachSprag::OffCentre(kinds[g], reach_m),
+            NoClosure::NoConvergence { .. } => NoEachSprag::Curve(kinds[g], NoCurve::NoConvergence),
+        })
     };
     let made = |g: usize| bits(standing_made(unlike, kinds[g], inner_track));
     let tables = one_for_each_made(groups.len(), made, table)?;

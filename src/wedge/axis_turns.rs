@@ -16,8 +16,8 @@
 //! and that a contact which d brings over a junction is taken to stay on its arc (Delta r times the square of the turn beyond, over 2).
 //! Where an arc begins G is that at the end of the one before.
 
-use super::closure::{FIRST_CONTACT_N, Statics};
-use super::curve::{NoCurve, WedgeCurve};
+use super::closure::{FIRST_CONTACT_N, NoClosure, Statics};
+use super::curve::WedgeCurve;
 use super::table::levelled;
 use crate::numeric::panels::Panels;
 use crate::numeric::pieces::Pieces;
@@ -90,11 +90,11 @@ impl Statics {
         speed: f64,
         shift: f64,
         offset_m: [f64; 2],
-    ) -> Option<[f64; 3]> {
+    ) -> Result<[f64; 3], NoClosure> {
         (self.offset_m, self.offset_stays) = (offset_m, true);
-        let c = self.closure(arc, n.max(FIRST_CONTACT_N), speed, shift).ok()?;
+        let c = self.closure(arc, n.max(FIRST_CONTACT_N), speed, shift)?;
         let turn = c.rotation - (c.beta - self.profile.beta0_rad);
-        Some([self.inner_turn(arc, c.rotation, turn).v, self.outer_turn(c.rotation).v, turn.v])
+        Ok([self.inner_turn(arc, c.rotation, turn).v, self.outer_turn(c.rotation).v, turn.v])
     }
 }
 
@@ -102,11 +102,12 @@ impl AxisTurns {
     /// Of `curve`, the axis up to `reach_m` > 0 off.
     ///
     /// # Errors
-    /// [`NoCurve`] where the sprag does not stand somewhere there.
-    pub fn new(curve: &WedgeCurve, reach_m: f64) -> Result<Self, NoCurve> {
+    /// [`NoClosure`] where the sprag does not stand somewhere there: `RolledOver` where the gap is too narrow or too wide for it.
+    pub fn new(curve: &WedgeCurve, reach_m: f64) -> Result<Self, NoClosure> {
         let places = places();
         let rows = SMatrix::<f64, PLACES, TERMS>::from_fn(|i, j| terms(places[i])[j]);
-        let fit = rows.svd(true, true).pseudo_inverse(1e-12).map_err(|_| NoCurve::NoConvergence)?;
+        let fit = rows.svd(true, true).pseudo_inverse(1e-12);
+        let fit = fit.map_err(|_| NoClosure::NoConvergence { residual: 1.0 })?;
         let mut statics = curve.statics().clone();
         // A sprag of another size touches where G lies otherwise.
         let (speed, gamma0) = (curve.speed_rad_s(), curve.touch().gamma.v);
@@ -114,10 +115,9 @@ impl AxisTurns {
             let gamma = curve.in_arc(k, alpha).gamma - gamma0;
             rotated(place.map(|part| part * reach_m), -gamma)
         };
-        let mut at = |k: usize, alpha: f64| -> Result<[f64; LANES], NoCurve> {
+        let mut at = |k: usize, alpha: f64| -> Result<[f64; LANES], NoClosure> {
             let (arc, n, shift) = (curve.first_arc() + k, curve.in_arc(k, alpha).n_bi, curve.shift_rad(k));
-            let mut turns =
-                |offset_m| statics.turns_at(arc, n, speed, shift, offset_m).ok_or(NoCurve::NoConvergence);
+            let mut turns = |offset_m| statics.turns_at(arc, n, speed, shift, offset_m);
             let [inner, outer, _] = turns([0.0; 2])?;
             let mut values = [SVector::<f64, PLACES>::zeros(); 2];
             for (i, place) in places.iter().enumerate() {
@@ -166,8 +166,9 @@ impl AxisTurns {
                     let place = rotated([1.0, 0.0], TAU * (f64::from(quarter) + 0.5) / 8.0);
                     let seen = found.at(k, alpha, place.map(|part| part * reach_m));
                     let own = statics.turns_at(curve.first_arc() + k, n, speed, curve.shift_rad(k), [0.0; 2]);
+                    let own = own.ok();
                     let there = (0..ends.len()).find_map(|arc| {
-                        let turns = statics.turns_at(arc, n, speed, 0.0, gamma_m(alpha, k, place))?;
+                        let turns = statics.turns_at(arc, n, speed, 0.0, gamma_m(alpha, k, place)).ok()?;
                         (arc + 1 == ends.len() || turns[2] < ends[arc]).then_some(turns)
                     });
                     let (Some(own), Some(there)) = (own, there) else { continue };

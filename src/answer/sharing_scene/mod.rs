@@ -52,6 +52,9 @@ impl fmt::Display for NoSharingScene {
             Self::NoRun(why @ NoEachSprag::NoneCarries) => {
                 write!(f, "{why}; `sharing` without --scenario says of each why")
             }
+            Self::NoRun(why @ NoEachSprag::OffCentre(_, apart_m)) => {
+                write!(f, "{why} (up to {:.0} um; bearing_stiffness_n_per_um)", 1e6 * apart_m)
+            }
             Self::NoRun(why) => why.fmt(f),
         }
     }
