@@ -114,7 +114,7 @@ impl Sheet {
         let pitch = LINE * self.letter_m;
         let widest = lines.iter().map(|l| l.chars().count()).max().unwrap_or(0);
         for (i, line) in lines.iter().enumerate() {
-            for (column, word) in line.split('\t').enumerate() {
+            for (column, word) in line.split('\t').enumerate().filter(|(_, word)| !word.is_empty()) {
                 let x = low.x + column as f64 * COLUMN * self.letter_m;
                 self.text(Vector2::new(x, low.y - (2.0 + i as f64) * pitch), word);
             }
