@@ -3,7 +3,8 @@
 use super::{command, output};
 use crate::file::unprintable;
 
-/// The command line as a shell would take it again, on one line; the program by its name, not by its path.
+/// The command line as a shell would take it again, on one line; the program by its name, not by its path, and without what only keeps
+/// it quiet.
 pub(super) fn command_line(args: impl Iterator<Item = String>) -> String {
     let quoted = |arg: String| {
         let plain = |c: char| c.is_alphanumeric() || "-_./=,:+@%".contains(c);
@@ -22,7 +23,8 @@ pub(super) fn command_line(args: impl Iterator<Item = String>) -> String {
             format!("'{}'", arg.replace('\'', "'\\''"))
         }
     };
-    std::iter::once(output::TOOL.to_owned()).chain(args.skip(1).map(quoted)).collect::<Vec<_>>().join(" ")
+    let told = args.skip(1).filter(|arg| !matches!(arg.as_str(), "--quiet" | "-q"));
+    std::iter::once(output::TOOL.to_owned()).chain(told.map(quoted)).collect::<Vec<_>>().join(" ")
 }
 
 /// The refusal of an option without its value. Options for numbers take what begins with a hyphen, so that -1e-6 is
