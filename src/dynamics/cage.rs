@@ -19,9 +19,10 @@
 //!
 //! Without film and clearance both are 0. While the sprag rests on the inner race F_c turns it about A, open where G lies ahead of A; then it
 //! tilts up to its stop and the cage bears it. Dry, N_be falls to 0 where m_g OC_g OP sin(-pi) Omega^2 = M_s at psi_P: lift-off, for P
-//! behind G (pi < 0) only. A film goes on pressing, thicker and less, and the tilt that it takes strains the spring, until the sprag
-//! is as low as its first arc can be between the tracks: beyond it counts as off. Bodies are rigid: a
-//! few newtons turn the sprag by little against alpha_max.
+//! behind G (pi < 0) only. A film goes on pressing, thicker and less, and the tilt that it takes strains the spring, until the sprag has no
+//! more room: tilted so far that its first arc, taken to go on behind first contact, comes down on the inner race from behind while P is on
+//! its stop. There it stays, R > 0 and N_bi > 0, over a film of that gap, which presses as its speed makes it: on oil nothing is ever off.
+//! Bodies are rigid: a few newtons turn the sprag by little against alpha_max.
 
 use super::start::{DRAG_FRICTION, Overrun, SlidingContact, settle};
 use crate::clutch::{Cage, Clutch};
@@ -60,12 +61,14 @@ impl Point {
         Self::at([x * cos - y * sin, x * sin + y * cos + to])
     }
 
-    /// The tilt at which its radius is `radius`; the one that brings it farthest out where none does.
-    fn tilt_to(&self, radius: f64, oc_e: f64, to: f64) -> f64 {
+    /// The tilts at which its radius is `radius`, while it still rises and where it comes down again; the one that brings it farthest out
+    /// where none does.
+    fn tilts_to(&self, radius: f64, oc_e: f64, to: f64) -> [f64; 2] {
         let [x, y] = self.beside_c_e(oc_e);
         let from_c_e = x.hypot(y);
         let cosine = (radius * radius - to * to - from_c_e * from_c_e) / (2.0 * to * from_c_e);
-        x.atan2(y) - cosine.clamp(-1.0, 1.0).acos()
+        let (top, beside) = (x.atan2(y), cosine.clamp(-1.0, 1.0).acos());
+        [top - beside, top + beside]
     }
 }
 
@@ -132,24 +135,40 @@ impl Held {
     /// From first contact, over a gap at B: resting on the inner race.
     fn inside(&self, gap: f64) -> Self {
         let to = self.oc_e - gap;
-        let tilt = if gap == 0.0 { 0.0 } else { self.c_1.tilt_to(self.c_1.radius, self.oc_e, to) };
+        let tilt = if gap == 0.0 { 0.0 } else { self.c_1.tilts_to(self.c_1.radius, self.oc_e, to)[0] };
         self.tilted(tilt, gap)
+    }
+
+    /// The same tilted as far as it can: on the stop, or down again on the inner race before.
+    fn open(&self, clearance: f64, gap: f64) -> Self {
+        let on_stop = self.on_stop(clearance, gap);
+        if gap == 0.0 || on_stop.c_1.radius >= self.c_1.radius {
+            return on_stop;
+        }
+        let [_, down] = self.c_1.tilts_to(self.c_1.radius, self.oc_e, self.oc_e - gap);
+        self.tilted(down, gap)
     }
 
     /// The same on the stop at P, `clearance` farther out than at first contact.
     pub fn on_stop(&self, clearance: f64, gap: f64) -> Self {
         let still = clearance == 0.0 && gap == 0.0;
         let to = self.oc_e - gap;
-        let tilt = if still { 0.0 } else { self.p.tilt_to(self.p.radius + clearance, self.oc_e, to) };
+        let tilt = if still { 0.0 } else { self.p.tilts_to(self.p.radius + clearance, self.oc_e, to)[0] };
         self.tilted(tilt, gap)
     }
 
-    /// The thickest film up to `most` over which the sprag on its stop is clear of the inner race: it tilts until it is at its lowest there,
-    /// and what lies behind its first contact is not described.
-    fn thickest_m(&self, clearance: f64, most: f64) -> f64 {
+    /// The thickest film that leaves the sprag room, C_1 straight above C_e, m.
+    fn lowest_m(&self) -> f64 {
+        let [x, y] = self.c_1.beside_c_e(self.oc_e);
+        self.oc_e + x.hypot(y) - self.c_1.radius
+    }
+
+    /// The thickest film over which the sprag on its stop is clear of the inner race, m.
+    fn thickest_m(&self, clearance: f64) -> f64 {
         let clear = |gap: f64| self.on_stop(clearance, gap).c_1.radius - self.c_1.radius;
+        let most = self.lowest_m();
         let at_most = clear(most);
-        if most <= 0.0 || at_most >= 0.0 {
+        if at_most >= 0.0 {
             return most;
         }
         let some = (1..50).map(|i| most * 0.5f64.powi(i)).find(|&gap| clear(gap) > 0.0);
@@ -203,17 +222,26 @@ impl Held {
 
     /// N_be = `n` (N), B sliding.
     fn at(&self, n: f64, b: &SlidingContact) -> Balance {
-        let (sin_a, cos_a) = self.a_ahead_of_p().sin_cos();
         let outward = self.outward_n(n, b);
-        let normal_inner_n = (-outward).max(0.0) / cos_a;
+        let normal_inner_n = (-outward).max(0.0) / self.a_ahead_of_p().cos();
+        self.held_by(n, b, normal_inner_n, outward.max(0.0))
+    }
+
+    /// The same held by both at once, A behind P: the inner race bears what `closing_nm` leaves over of the moment about P, N m.
+    fn stuck(&self, n: f64, b: &SlidingContact, closing_nm: f64) -> Balance {
+        let (sin_a, cos_a) = self.a_ahead_of_p().sin_cos();
+        let opening: f64 = self.opening_nm(n, b, 0.0).iter().sum();
+        let normal_inner_n = (closing_nm - opening) / (self.p.radius * sin_a);
+        self.held_by(n, b, normal_inner_n, self.outward_n(n, b) + normal_inner_n * cos_a)
+    }
+
+    /// The same, the inner race and the stop pressing with so much, N.
+    fn held_by(&self, n: f64, b: &SlidingContact, normal_inner_n: f64, stop_n: f64) -> Balance {
+        let sin_a = self.a_ahead_of_p().sin();
         let sin_b = (self.p.ahead - b.ahead_m / self.ob).sin();
         let at_b = n * (sin_b - b.friction * self.p.ahead.cos());
         let along = self.centrifugal_n() * self.pi().sin() - at_b - normal_inner_n * sin_a;
-        Balance {
-            normal_inner_n,
-            cage_n: [outward.max(0.0), along],
-            opening_nm: self.opening_nm(n, b, normal_inner_n),
-        }
+        Balance { normal_inner_n, cage_n: [stop_n, along], opening_nm: self.opening_nm(n, b, normal_inner_n) }
     }
 
     /// What turns the sprag open about P, N m: B pressed by `n`, A by `normal_inner_n` (N), the centrifugal force.
@@ -307,29 +335,40 @@ impl CageFacts {
 struct Standing<'a, F> {
     touching: Held,
     clearance_m: f64,
-    thickest_m: f64,
+    /// The thickest film that it has room for, m, and the least that B presses with, N: 0 without a film.
+    lowest_m: f64,
+    lowest_n: f64,
     sliding: &'a F,
 }
 
 impl<F: Fn(f64) -> SlidingContact> Standing<'_, F> {
-    /// B pressed with `n` (N), tilted by a `part` of the way from the inner race to the stop.
+    /// The force under which a film at B is so thick, m, N; 0 without one.
+    fn under_n(sliding: &F, gap_m: f64) -> f64 {
+        // Without load a film has no end.
+        let pressed = |n: f64| gap_m / sliding(n).gap_m - 1.0;
+        let high = (sliding(0.0).gap_m > 0.0).then(|| (0..200).map(|i| 1e-3 * 2f64.powi(i)));
+        let high = high.and_then(|mut forces| forces.find(|&n| pressed(n) >= 0.0));
+        high.and_then(|high| root::bracketed(0.0, high, -1.0, pressed(high), 1e-15 * high, pressed))
+            .unwrap_or(0.0)
+    }
+
+    /// B pressed with `n` (N), tilted by a `part` of the way from first contact with the inner race to where it is open.
     fn at(&self, n: f64, part: f64) -> (Held, SlidingContact) {
         let mut b = (self.sliding)(n);
-        b.gap_m = b.gap_m.min(self.thickest_m);
-        let (inside, on_stop) =
-            (self.touching.inside(b.gap_m), self.touching.on_stop(self.clearance_m, b.gap_m));
+        b.gap_m = b.gap_m.min(self.lowest_m);
+        let (inside, open) = (self.touching.inside(b.gap_m), self.touching.open(self.clearance_m, b.gap_m));
         let held = match part {
             0.0 => inside,
-            1.0 => on_stop,
+            1.0 => open,
             _ => {
-                let tilt = self.touching.alpha - (inside.alpha + part * (on_stop.alpha - inside.alpha));
+                let tilt = self.touching.alpha - (inside.alpha + part * (open.alpha - inside.alpha));
                 self.touching.tilted(tilt, b.gap_m)
             }
         };
         (held, b)
     }
 
-    /// The force at B, N, that neither the inner race nor the stop has to help to bear the centrifugal force; 0 where there is none.
+    /// The force at B, N, that neither the inner race nor the stop has to help to bear the centrifugal force, or the least there is.
     fn poised_n(&self, part: f64) -> f64 {
         let left = |n: f64| {
             let (held, b) = self.at(n, part);
@@ -337,11 +376,12 @@ impl<F: Fn(f64) -> SlidingContact> Standing<'_, F> {
         };
         let at_none = left(0.0);
         if at_none <= 0.0 {
-            return 0.0;
+            return self.lowest_n;
         }
         let high = (0..60).map(|i| at_none * 2f64.powi(i)).find(|&n| left(n) <= 0.0);
         high.and_then(|high| root::bracketed(0.0, high, at_none, left(high), 1e-15 * high, left))
             .unwrap_or(0.0)
+            .max(self.lowest_n)
     }
 }
 
@@ -357,54 +397,49 @@ pub fn overrun_in_cage(
 ) -> Overrun {
     let touching = Held::new(clutch, cage, touch, cage_rad_s);
     let clearance_m = cage.clearance_m;
-    let of_film_m = sliding(0.0).gap_m;
-    let thickest_m = touching.thickest_m(clearance_m, of_film_m);
-    let standing = Standing { touching, clearance_m, thickest_m, sliding: &sliding };
-    // The force at B along the way from lift-off to the inner race: on the stop, tilting at the force at which neither helps, inside.
-    let plays = clearance_m > 0.0 || of_film_m > 0.0;
-    let [stop_n, inside_n] = if plays { [1.0, 0.0].map(|part| standing.poised_n(part)) } else { [0.0; 2] };
+    let on_film = sliding(0.0).gap_m > 0.0;
+    let (thickest_m, lowest_m) = (touching.thickest_m(clearance_m), touching.lowest_m());
+    let [thickest_n, lowest_n] = [thickest_m, lowest_m].map(|gap_m| Standing::under_n(&sliding, gap_m));
+    let standing = Standing { touching, clearance_m, lowest_m, lowest_n, sliding: &sliding };
+    // The force at B along the way from where it is held by both: open, tilting at the force at which neither helps, inside.
+    let plays = clearance_m > 0.0 || on_film;
+    let [open_n, inside_n] = if plays { [1.0, 0.0].map(|part| standing.poised_n(part)) } else { [0.0; 2] };
     let along = |way: f64| match way {
-        _ if way < stop_n => (way, 1.0),
-        _ if way < 2.0 * stop_n => {
-            let part = 2.0 - way / stop_n;
+        _ if way < open_n => (way + thickest_n * (1.0 - way / open_n), 1.0),
+        _ if way < 2.0 * open_n => {
+            let part = 2.0 - way / open_n;
             (standing.poised_n(part), part)
         }
-        _ => (inside_n + way - 2.0 * stop_n, 0.0),
+        _ => (inside_n + way - 2.0 * open_n, 0.0),
+    };
+    let overrun = |held: &Held, n: f64, contact: &SlidingContact, b: &Balance| Overrun {
+        alpha_rad: held.alpha,
+        normal_inner_n: b.normal_inner_n,
+        normal_outer_n: n,
+        sliding_n: n,
+        cage_n: b.cage_n,
+        drag_torque_nm: contact.friction * n * held.ob * clutch.sprags.count as f64,
+        tan_inner: 0.0,
+        tan_outer: contact.friction,
+        relative_error: 0.0,
     };
     let balance = |way: f64| {
         let (n, part) = along(way);
         let (held, contact) = standing.at(n, part);
-        let mu = contact.friction;
         let b = held.at(n, &contact);
         let spring = held.closing_nm(clutch, alpha_max);
         let left = spring - b.opens_nm();
         let size = spring.abs() + b.opening_nm.iter().map(|m| m.abs()).sum::<f64>();
-        let overrun = Overrun {
-            alpha_rad: held.alpha,
-            normal_inner_n: b.normal_inner_n,
-            normal_outer_n: n,
-            sliding_n: n,
-            cage_n: b.cage_n,
-            drag_torque_nm: mu * n * held.ob * clutch.sprags.count as f64,
-            tan_inner: 0.0,
-            tan_outer: mu,
-            relative_error: 0.0,
-        };
-        Some((left, size, overrun))
+        Some((left, size, overrun(&held, n, &contact, &b)))
     };
-    let off = touching.on_stop(clearance_m, 0.0);
-    let lifted = Overrun {
-        alpha_rad: off.alpha,
-        normal_inner_n: 0.0,
-        normal_outer_n: 0.0,
-        sliding_n: 0.0,
-        cage_n: off.at(0.0, &SlidingContact::dry(0.0)).cage_n,
-        drag_torque_nm: 0.0,
-        tan_inner: 0.0,
-        tan_outer: 0.0,
-        relative_error: 0.0,
+    let most_open = if on_film {
+        let (held, contact) = standing.at(thickest_n, 1.0);
+        let b = held.stuck(thickest_n, &contact, held.closing_nm(clutch, alpha_max));
+        Overrun { relative_error: f64::EPSILON, ..overrun(&held, thickest_n, &contact, &b) }
+    } else {
+        let off = touching.on_stop(clearance_m, 0.0);
+        let dry = SlidingContact::dry(0.0);
+        overrun(&off, 0.0, &dry, &off.at(0.0, &dry))
     };
-    let found = settle(balance, lifted);
-    let floats_off = thickest_m > 0.0 && sliding(found.sliding_n).gap_m >= thickest_m;
-    if floats_off { lifted } else { found }
+    settle(balance, most_open)
 }

@@ -94,15 +94,14 @@ impl FilmFriction {
     /// * T/N; that of the asperities without a load, where T is none.
     /// * x_p, how far ahead of the contact, where the race comes from, the film's pressure acts, m: the moments on the film are in balance,
     ///   so x_p N = 2 R F with F the rolling shear of either surface, whatever the regime; the asperities' part acts at the contact.
-    /// * How far apart it keeps the bodies, m: h_0 of rigid ones; no more than [`Film::THIN`] of their radius, beyond which nothing presses.
+    /// * How far apart it keeps the bodies, m: h_0 of rigid ones; without a load there is no end to it.
     pub fn felt(&self, speed_abs_m_s: f64, normal_n: f64) -> [f64; 3] {
-        let thickest = Film::THIN * self.contact.radius_m;
         if normal_n > LEAST_N {
             let state = self.at(speed_abs_m_s, normal_n);
             let rolling = (1.0 - state.asperities) * 2.0 * self.contact.radius_m * state.shear.rolling_n;
-            [state.tangential_n / normal_n, rolling / normal_n, state.film.least_m().min(thickest)]
+            [state.tangential_n / normal_n, rolling / normal_n, state.film.least_m()]
         } else {
-            [self.boundary, 0.0, if speed_abs_m_s > 0.0 { thickest } else { 0.0 }]
+            [self.boundary, 0.0, if speed_abs_m_s > 0.0 { f64::INFINITY } else { 0.0 }]
         }
     }
 

@@ -87,17 +87,18 @@ fn forces_and_lift_off_are_those_of_the_script() {
 }
 
 /// On a film the sprag stands where nothing overlaps and nothing pulls, and forces and moments about the axis balance: each point in
-/// Cartesian coordinates, x forward and y out through C_e. Beyond the speed of lift-off without oil too.
+/// Cartesian coordinates, x forward and y out through C_e. Beyond the speed of lift-off without oil too, up to where the film has no more
+/// room: there stop and inner race both hold it, and it drags the more the faster.
 #[test]
 fn on_a_film_forces_balance_and_nothing_overlaps() {
-    let mut ways = [0; 3];
+    let mut ways = [0; 4];
     for clearance_um in ["0", "5"] {
         let (from, to) = loose(clearance_um);
         let (design, state) = changed(&[(from, &to)]);
         let touch = state.curve.touch();
         let (oc_e, beta, alpha) = (touch.lengths.oc_e.v, touch.beta.v, touch.alpha.v);
         let (mut drag, mut last_m) = (f64::INFINITY, 0.0);
-        for rpm in [50.0, 300.0, 700.0, 800.0, 830.0, 900.0, 1200.0, 1300.0] {
+        for rpm in [50.0, 300.0, 700.0, 800.0, 830.0, 900.0, 1200.0, 1300.0, 2000.0, 3000.0] {
             let point = overrun_at(&design, &state, 0.0, rad_s(rpm)).unwrap();
             let (s, film) = (point.state, point.lubricated.unwrap());
             let gap = film.film.film.least_m();
@@ -116,13 +117,13 @@ fn on_a_film_forces_balance_and_nothing_overlaps() {
             let (n_a, [r, h], n_b) = (s.normal_inner_n, s.cage_n, s.normal_outer_n);
             assert!(n_a >= 0.0 && r >= 0.0 && n_b > 0.0, "{s:?}");
             assert!(n_a * inside < 1e-9 && r * room < 1e-9, "{rpm}: {n_a} {inside}, {r} {room}");
-            ways[if n_a > 1e-9 {
-                0
-            } else if r > 1e-9 {
-                2
-            } else {
-                1
-            }] += 1;
+            let way = match (n_a > 1e-9, r > 1e-9) {
+                (true, false) => 0,
+                (false, false) => 1,
+                (false, true) => 2,
+                (true, true) => 3,
+            };
+            ways[way] += 1;
             let along = |[x, y]: [f64; 2]| [x / x.hypot(y), y / x.hypot(y)];
             let ahead = film.law.ahead_m(rad_s(rpm) * 0.05, n_b) / 0.05;
             let ([a_x, a_y], [p_x, p_y]) = (along(c_1), along(p));
@@ -137,15 +138,72 @@ fn on_a_film_forces_balance_and_nothing_overlaps() {
                 "{rpm}: {x} {y} of {n_b}"
             );
             assert!(moment.abs() < 1e-5 * spring, "{rpm}: {moment} of {spring}");
-            // It ends by and by, and later than without oil.
-            assert!(rpm < 1000.0 || s.drag_torque_nm < drag);
+            assert!(rpm < 1000.0 || (way == 2 && s.drag_torque_nm < drag) || way == 3, "{rpm}: {s:?}");
+            // Two films as thick: the first arc leaves no room for more.
+            assert!(
+                rpm < 3000.0 || (way == 3 && (gap / last_m - 1.0).abs() < 1e-9 && s.drag_torque_nm > drag)
+            );
             (drag, last_m) = (s.drag_torque_nm, gap);
         }
-        // The first arc leaves room for a film of 50 um at most.
-        assert!((30.0..50.0).contains(&(1e6 * last_m)), "{last_m}");
-        assert_eq!(overrun_at(&design, &state, 0.0, rad_s(2000.0)).unwrap().state.sliding_n, 0.0);
+        assert!((30.0..55.0).contains(&(1e6 * last_m)), "{last_m}");
     }
     assert!(ways.iter().all(|n| *n > 0), "{ways:?}");
+}
+
+/// From oil as thin as water to oil that hardly flows: no speed at which the drag jumps. Where neither race nor stop helps, the film bears the
+/// centrifugal force, N = m_g OC_g Omega^2; everywhere it is that of rigid bodies, N h_0 = 2.448 eta v R l (Martin).
+#[test]
+fn drag_on_a_film_is_continuous_in_speed() {
+    const STEP: f64 = 0.01;
+    let (mut poised, mut widest_m) = (0, 0.0f64);
+    for (grade, oil_c) in [("5", "100.0"), ("32", "50.0"), ("220", "60.0"), ("220", "20.0"), ("460", "0.0")] {
+        let (oil, film_c) = (
+            format!("oil = \"ISO VG {grade}\""),
+            format!("temperature_c = {oil_c}\ntemperatures = \"given\""),
+        );
+        let weak = ("drag_torque_nm = 0.6", "drag_torque_nm = 0.06");
+        for changes in [&[][..], &[weak]] {
+            let oil = [("oil = \"ISO VG 32\"", oil.as_str()), ("temperature_c = 50.0", film_c.as_str())];
+            let (design, state) = changed(&[changes, &oil].concat());
+            let mut last: Option<f64> = None;
+            for i in 0..470 {
+                let rpm = 30.0 * (1.0 + STEP).powi(i);
+                let point = overrun_at(&design, &state, 0.0, rad_s(rpm)).unwrap();
+                let (s, film) = (point.state, point.lubricated.expect("oil"));
+                let drag = s.drag_torque_nm;
+                if let Some(last) = last {
+                    // The steepest is mixed friction, and a force at B that the centrifugal one takes away.
+                    assert!(
+                        (drag - last).abs() < 12.0 * STEP * last.min(drag),
+                        "{grade} {rpm}: {last} to {drag}"
+                    );
+                }
+                last = Some(drag);
+                let h_0 = film.film.film.least_m();
+                widest_m = widest_m.max(h_0);
+                if s.normal_inner_n == 0.0 && s.cage_n[0] == 0.0 || h_0 > 20e-6 {
+                    let martin = 2.448
+                        * film.law.fluid.viscosity_pa_s
+                        * rad_s(rpm)
+                        * 50e-3
+                        * film.law.contact.radius_m
+                        * design.clutch.contact_length_m()
+                        / h_0;
+                    assert!((s.sliding_n / martin - 1.0).abs() < 0.1, "{grade} {rpm}: {s:?} {martin}");
+                }
+                let helped = s.normal_inner_n.max(s.cage_n[0]);
+                if helped < 1e-3 * s.sliding_n {
+                    let centrifugal = 0.0195 * 42.1e-3 * rad_s(rpm).powi(2);
+                    assert!(
+                        (s.sliding_n / centrifugal - 1.0).abs() < 0.01,
+                        "{grade} {rpm}: {s:?} {centrifugal}"
+                    );
+                    poised += 1;
+                }
+            }
+        }
+    }
+    assert!(poised > 20 && widest_m > 100e-6, "{poised} {widest_m}");
 }
 
 /// m_g OC_g OP sin(-pi) Omega^2 = M_s, and where the force at B ends.
