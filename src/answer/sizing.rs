@@ -279,6 +279,10 @@ fn no_shaft(bore_m: f64, torque_nm: f64) -> Option<String> {
 fn figures(made: &Made) -> Vec<String> {
     let size = size_line(&made.design);
     let drag = made.drag.map(|d| match (d.torque_nm > 0.0, d.sliding_rad_s > 0.0) {
+        (false, _) if made.design.clutch.slides_outside() => {
+            "In overrun as asked for the sprags are off: dry, no drag and no heat; on oil, [lubrication], they float on a film that drags"
+                .to_owned()
+        }
         (false, _) => "In overrun as asked for the sprags are off: no drag, no heat".to_owned(),
         (true, false) => format!(
             "Drag in slow overrun {}: {} of heat at {}",

@@ -349,7 +349,8 @@ impl CheckBody {
         let running = self.running.iter().flat_map(running::RunningSection::remarks);
         let run_out = self.run_out.iter().flat_map(run_out::RunOutSection::remarks);
         let lift_off = self.overrun.lift_off_remark(self.lift_off_rpm, self.lift_off_searched_to_rpm);
-        let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
+        let beyond = self.overrun.beyond_lift_off(self.lift_off_rpm);
+        let overrun = [lift_off].into_iter().chain(beyond).chain(self.overrun.remarks());
         let materials = self.materials.iter().cloned();
         let at_speed = self.at_speed.iter().filter_map(at_speed::AtSpeedSection::warning);
         let all = early

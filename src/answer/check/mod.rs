@@ -3,6 +3,7 @@
 mod at_speed;
 mod body;
 mod charts;
+mod lift_off;
 pub mod overrun;
 mod page;
 pub mod run_out;

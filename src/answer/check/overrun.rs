@@ -1,6 +1,6 @@
 //! Overrun in the margin check: words, JSON, table.
 
-use crate::answer::overrun::{SHOWN_LATER, usual_speeds_rad_s};
+use crate::answer::overrun::usual_speeds_rad_s;
 use crate::design::{Design, Limits, rad_s};
 use crate::dynamics::CageFacts;
 use crate::file::inputs;
@@ -265,7 +265,7 @@ impl CageSection {
     }
 
     /// What would let sprags lift off that speed presses on.
-    fn never_lifts(&self) -> Option<String> {
+    pub(super) fn never_lifts(&self) -> Option<String> {
         (self.pivot_ahead_of_centroid_deg >= 0.0).then(|| {
             format!(
                 ", for speed presses them on: they lift off where the centroid lies ahead of the pivot, by {}, or by a smaller \
@@ -298,6 +298,9 @@ pub struct OverrunSection {
     pub named: Vec<NamedOverrun>,
     /// All speeds looked at: first the outer race runs, then the inner one.
     pub points: Vec<OverrunRow>,
+    /// The limit of lift-off, rev/min.
+    #[serde(skip)]
+    pub(super) lift_off_by_rpm: Option<f64>,
     /// Whether the sliding contact is on a film of oil.
     #[serde(skip)]
     pub on_film: bool,
@@ -413,6 +416,7 @@ impl OverrunSection {
             },
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
+            lift_off_by_rpm: limits.lift_off_by_rad_s.map(|w| Unit::Rpm.from_si(w)),
             on_film,
             cage,
             passing: if warning.is_none() { passing(&looked_at) } else { None },
@@ -462,67 +466,6 @@ impl OverrunSection {
                 _ => "over",
             }
         )
-    }
-
-    /// Where the sprags lift off, if they do up to `searched_to_rpm`.
-    pub(super) fn lift_off_remark(&self, lift_off_rpm: Option<f64>, searched_to_rpm: f64) -> String {
-        if let Some(cage) = &self.cage {
-            let Some(rpm) = lift_off_rpm else {
-                return format!(
-                    "Sprags keep contact with the outer race up to {searched_to_rpm:.0} rpm of the inner race at least{}",
-                    cage.never_lifts().unwrap_or_default()
-                );
-            };
-            if rpm <= 0.0 {
-                return "No spring closes the sprags: nothing presses them on the outer race".to_owned();
-            }
-            return format!(
-                "Sprags lift off the outer race at {rpm:.0} rpm of the inner race{}{}; {} later for each µm of \
-                 clearance outside the pivot {}{}",
-                if self.on_film {
-                    ", on oil by and by from there on: `overrun` has what the film drags beyond"
-                } else {
-                    ": keep above it in long overrun"
-                },
-                match cage.comes_back_there {
-                    true => "; they come back at the same speed",
-                    false =>
-                        "; they open at once as far as the cage lets them, and come back at a lower speed",
-                },
-                Unit::Percent.show(cage.lift_off_later_per_um, 2),
-                match cage.clearance_um {
-                    0.0 => "(cage.clearance_um, none here)".to_owned(),
-                    um => format!("beyond the {} µm of the file", significant(um, 3)),
-                },
-                match cage.lift_off_later_at_most {
-                    later if later >= SHOWN_LATER => format!(
-                        "; up to {} later if the inner race, not the cage, took them along while the drag was measured",
-                        Unit::Percent.show(later, 2)
-                    ),
-                    _ => String::new(),
-                }
-            );
-        }
-        let why = match self.centrifugal {
-            "engaging" => {
-                ": the outer race grows with speed, the sprags turn on, and the centrifugal force changes its sense"
-            }
-            _ => "",
-        };
-        match (self.outer_race_turns, lift_off_rpm) {
-            (true, Some(rpm)) => {
-                format!("Sprags lift off the inner race at {rpm:.0} rpm of the outer race{why}")
-            }
-            (true, None) => format!("Sprags keep contact in overrun up to {searched_to_rpm:.0} rpm at least"),
-            (false, Some(rpm)) => format!(
-                "No speed of the outer race is named; if it turned in overrun, sprags would lift off the inner race at \
-                 {rpm:.0} rpm of it{why}"
-            ),
-            (false, None) => format!(
-                "No speed of the outer race is named; if it turned in overrun, sprags would keep contact up to \
-                 {searched_to_rpm:.0} rpm of it at least"
-            ),
-        }
     }
 
     /// For people: as [`Self::table`], without rows that show what those on both sides of them do.
