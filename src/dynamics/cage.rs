@@ -20,8 +20,8 @@
 //! Without film and clearance both are 0. While the sprag rests on the inner race F_c turns it about A, open where G lies ahead of A; then it
 //! tilts up to its stop and the cage bears it. Dry, N_be falls to 0 where m_g OC_g OP sin(-pi) Omega^2 = M_s at psi_P: lift-off, for P
 //! behind G (pi < 0) only. A film goes on pressing, thicker and less, and the tilt that it takes strains the spring, until the sprag has no
-//! more room: tilted so far that its first arc, taken to go on behind first contact, comes down on the inner race from behind while P is on
-//! its stop. There it stays, R > 0 and N_bi > 0, over a film of that gap, which presses as its speed makes it: on oil nothing is ever off.
+//! more room: tilted so far that its first arc, taken to go on behind first contact, touches the inner race behind P, which is on its stop.
+//! There it stays, R > 0 and N_bi > 0, over a film of that gap, which presses as its speed makes it: on oil nothing is ever off.
 //! Bodies are rigid: a few newtons turn the sprag by little against alpha_max.
 
 use super::start::{DRAG_FRICTION, Overrun, SlidingContact, settle};
@@ -142,7 +142,7 @@ impl Held {
     /// The same tilted as far as it can: on the stop, or down again on the inner race before.
     fn open(&self, clearance: f64, gap: f64) -> Self {
         let on_stop = self.on_stop(clearance, gap);
-        if gap == 0.0 || on_stop.c_1.radius >= self.c_1.radius {
+        if gap == 0.0 || on_stop.c_1.ahead >= 0.0 || on_stop.c_1.radius >= self.c_1.radius {
             return on_stop;
         }
         let [_, down] = self.c_1.tilts_to(self.c_1.radius, self.oc_e, self.oc_e - gap);
@@ -157,23 +157,21 @@ impl Held {
         self.tilted(tilt, gap)
     }
 
-    /// The thickest film that leaves the sprag room, C_1 straight above C_e, m.
-    fn lowest_m(&self) -> f64 {
-        let [x, y] = self.c_1.beside_c_e(self.oc_e);
-        self.oc_e + x.hypot(y) - self.c_1.radius
-    }
-
-    /// The thickest film over which the sprag on its stop is clear of the inner race, m.
-    fn thickest_m(&self, clearance: f64) -> f64 {
+    /// The thickest films that leave the sprag room, m: on its stop, and at all, with C_1 straight above C_e, which is more where C_1 is past
+    /// that place on the stop.
+    fn thickest_m(&self, clearance: f64) -> [f64; 2] {
         let clear = |gap: f64| self.on_stop(clearance, gap).c_1.radius - self.c_1.radius;
-        let most = self.lowest_m();
+        let [x, y] = self.c_1.beside_c_e(self.oc_e);
+        let most = self.oc_e + x.hypot(y) - self.c_1.radius;
         let at_most = clear(most);
         if at_most >= 0.0 {
-            return most;
+            return [most; 2];
         }
         let some = (1..50).map(|i| most * 0.5f64.powi(i)).find(|&gap| clear(gap) > 0.0);
-        some.and_then(|some| root::bracketed(some, most, clear(some), at_most, 1e-12 * most, clear))
-            .unwrap_or(0.0)
+        let on_stop =
+            some.and_then(|some| root::bracketed(some, most, clear(some), at_most, 1e-12 * most, clear));
+        let on_stop = on_stop.unwrap_or(0.0);
+        [on_stop, if self.on_stop(clearance, on_stop).c_1.ahead < 0.0 { most } else { on_stop }]
     }
 
     /// pi, rad.
@@ -398,7 +396,7 @@ pub fn overrun_in_cage(
     let touching = Held::new(clutch, cage, touch, cage_rad_s);
     let clearance_m = cage.clearance_m;
     let on_film = sliding(0.0).gap_m > 0.0;
-    let (thickest_m, lowest_m) = (touching.thickest_m(clearance_m), touching.lowest_m());
+    let [thickest_m, lowest_m] = touching.thickest_m(clearance_m);
     let [thickest_n, lowest_n] = [thickest_m, lowest_m].map(|gap_m| Standing::under_n(&sliding, gap_m));
     let standing = Standing { touching, clearance_m, lowest_m, lowest_n, sliding: &sliding };
     // The force at B along the way from where it is held by both: open, tilting at the force at which neither helps, inside.

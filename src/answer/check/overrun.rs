@@ -8,7 +8,7 @@ use crate::follow::Follow;
 use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
 };
-use crate::report::{Rows, Table, Unit, significant};
+use crate::report::{Rows, Table, Unit};
 use crate::wedge::NoCurve;
 use serde::Serialize;
 
