@@ -378,8 +378,19 @@ fn the_commands_say_which_race_is_meant() {
     for words in [
         "lift off the outer race at 827 rpm of the inner race, on oil by and by from there on",
         "Nm at 900 rpm of the inner race",
+        // 900/827 less 1 at 2.3 % for each um; 827 and 21 % later.
+        "lift-off at 827 rpm is held, by 900 rpm (lift_off_by_rpm), but more than 3.9 µm",
+        "(1003 rpm at the latest)",
     ] {
         assert!(check.contains(words), "{check}");
+    }
+    let thick = ["oil=\"ISO VG 220\"", "temperature_c=50"].map(|to| format!("lubrication.{to}"));
+    let sets = ["limits.lift_off_by_rpm=1300", "spring.drag_torque_nm=0.06", &thick[0], &thick[1]];
+    for (sets, more) in [(&sets[..1], false), (&sets[..], true)] {
+        let sets = sets.iter().flat_map(|set| ["--set", set]);
+        let said = text_of(&run(&["check", FILE].into_iter().chain(sets).collect::<Vec<_>>()));
+        assert!(!said.contains("Warning: lift-off at"), "{said}");
+        assert_eq!(said.contains("film drags more beyond lift-off"), more, "{said}");
     }
 }
 
