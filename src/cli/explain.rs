@@ -31,7 +31,7 @@ const SHOWN_BY: [(&str, &str); 6] = [
     ("drivetrain", "simulate FILE --scenario NAME"),
     ("limits", "check FILE"),
     ("thermal", "check FILE"),
-    ("tolerances", "optimize FILE -o NEW.toml"),
+    ("tolerances", "optimize FILE -o NEW.toml --robust"),
 ];
 
 impl Run for ExplainArgs {

@@ -249,7 +249,10 @@ pub const ASKED: [WishNumber; 16] = [
         unnamed: Unnamed::FollowsOrZero,
         at: |w| &mut w.lift_off_rad_s,
         value: |r| r.lift_off_rad_s,
-        range: (|r| [rpm(r.keep_contact_rad_s.unwrap_or(0.0)).max(1.0), MOST_RPM], ""),
+        range: (
+            |r| [rpm(r.keep_contact_rad_s.unwrap_or(0.0)).max(1.0), MOST_RPM],
+            ", not below the speed to which contact is kept",
+        ),
         taken: Some(("sprags off by", |r| r.contact_from[1])),
         ..SPEED
     },

@@ -439,14 +439,15 @@ impl OverrunAnswer<'_> {
         }
         let beyond = films().find(|(_, f)| !f.film.is_checked() && f.lambda > 0.0);
         if let Some((l, f, load)) = beyond.and_then(|(l, f)| Some((l, f, f.film.load?))) {
+            let numbers = [("load number M", load), ("lubricant number L", f.film.lubricant)];
+            let beyond = numbers.into_iter().zip(Film::CHECKED).filter(|((_, found), most)| found > most);
+            let words = |((name, found), most): ((&str, f64), f64)| {
+                format!("{name} {}, checked to {most}", significant(found, 3))
+            };
             all.push(format!(
-                "Warning: at {} the film formula (Moes) is used beyond where it was checked: load number M {}, checked to {}; lubricant \
-                 number L {}, checked to {}. Take the film there as an estimate",
+                "Warning: at {} the film formula (Moes) is used beyond where it was checked: {}. Take the film there as an estimate",
                 place(l),
-                significant(load, 3),
-                Film::CHECKED[0],
-                significant(f.film.lubricant, 3),
-                Film::CHECKED[1]
+                beyond.map(words).collect::<Vec<_>>().join("; ")
             ));
         }
         let thick = self.lines.iter().filter_map(|l| {

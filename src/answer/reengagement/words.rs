@@ -227,7 +227,7 @@ impl ReengagementAnswer<'_> {
                 format!("; {shortest} is borne from a friction of {} on", significant(mu, 4))
             }
             Some(_) => String::new(),
-            None => format!("; {shortest} is borne at none that slips"),
+            None => format!("; {shortest} is not borne at any friction low enough to slip"),
         };
         first + &then
     }
