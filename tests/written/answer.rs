@@ -75,7 +75,7 @@ fn the_page_of_the_library_is_that_of_the_command() {
     assert!(output.status.code().is_some_and(|code| code < 2), "{output:?}");
     let printed = std::fs::read_to_string(&file).expect("page");
     std::fs::remove_file(&file).expect("page");
-    let command = format!("sprag-design check {BENCH} --quiet --report {}", file.display());
+    let command = format!("sprag-design check {BENCH} --report {}", file.display());
     let answer = bench().check(&Follow::nobody()).unwrap_or_else(|e| panic!("{e}"));
     let page = answer.page(&Provenance { command, run_time_s: 0.25 }).to_html();
     assert!(page.contains(&answer.body.verdict()) && page.contains("0.25"));
