@@ -34,8 +34,8 @@ pub(super) struct ScenarioFile {
     /// torsional-excitation: frequency of that torque, Hz.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub frequency_hz: Option<f64>,
-    /// torsional-excitation and transient: stiffness that ties the outer race to ground, N m/rad (steel shaft 40 mm thick, 200 mm long: 1e5);
-    /// absent beside a drivetrain: the outer race is free.
+    /// torsional-excitation and transient: stiffness from outer race to ground, N m/rad (some 1e5); that
+    /// of a steel shaft 40 mm thick and 200 mm long is 1e5; absent beside a drivetrain: the outer race is free.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub abutment_stiffness_nm_per_rad: Option<f64>,
     /// torsional-excitation, engagement and transient: duration, s.

@@ -178,11 +178,9 @@ fn samples(design: &Design, state: &LoadState) -> Vec<(StaticPoint, Closure)> {
     let mut samples = curve.samples(f64::INFINITY, PER_ARC);
     let limits = &design.limits;
     for torque_nm in [limits.nominal_torque_nm, limits.peak_torque_nm].into_iter().flatten() {
-        if let (Some(point), Some((_, closure))) =
-            (curve.at_torque(torque_nm), curve.closure_at_torque(torque_nm))
-        {
+        if let Some(sample) = curve.sample_at_torque(torque_nm) {
             let place = samples.partition_point(|(p, _)| p.torque_nm < torque_nm);
-            samples.insert(place, (point, closure));
+            samples.insert(place, sample);
         }
     }
     samples

@@ -23,8 +23,7 @@ impl WedgeCurve {
                 let both = self.closure_at_normal(n).map(|(k, c)| (self.row(k, &c), c));
                 match both {
                     Some((point, _)) if point.torque_nm > up_to_nm => {
-                        let last = self.closure_at_torque(up_to_nm);
-                        points.extend(last.map(|(k, c)| (self.row(k, &c), c)));
+                        points.extend(self.sample_at_torque(up_to_nm));
                         return points;
                     }
                     both => points.extend(both),
@@ -33,5 +32,10 @@ impl WedgeCurve {
             from_n = until_n;
         }
         points
+    }
+
+    /// The point at `torque_nm` > 0 with its equilibrium; `None` where the curve ends below it.
+    pub fn sample_at_torque(&self, torque_nm: f64) -> Option<(StaticPoint, Closure)> {
+        self.closure_at_torque(torque_nm).map(|(k, c)| (self.row(k, &c), c))
     }
 }

@@ -78,7 +78,7 @@ impl StaticPoint {
 impl WedgeCurve {
     /// Static state at `torque_nm` > 0; `None` where the curve ends below it.
     pub fn at_torque(&self, torque_nm: f64) -> Option<StaticPoint> {
-        self.closure_at_torque(torque_nm).map(|(k, c)| self.row(k, &c))
+        self.sample_at_torque(torque_nm).map(|(point, _)| point)
     }
 
     /// Static state at inner normal force `normal_n` > 0; `None` beyond the curve.
