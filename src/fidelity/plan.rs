@@ -2,7 +2,7 @@
 
 use crate::clutch::Scenario;
 use crate::scenario::{AtRest, NoScenario, Prepared, Reduction, prepare_reduced};
-use crate::wedge::Effort;
+use crate::wedge::{AtSpeed, Effort};
 
 /// One term, left out or kept.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +38,19 @@ pub struct Plan {
 /// is repeated with all of them.
 const REACH: f64 = 2.5;
 
+/// Torque up to which arcs are built for `scenario`, N m; `None`: all of them are.
+fn reach_nm(scenario: &Scenario) -> Option<f64> {
+    // Torques of a drivetrain are not those of the scene.
+    scenario.drivetrain.is_empty().then_some(REACH * scenario.largest_torque_nm())
+}
+
+/// The curve at speed that [`plan_at`] asks for; `None`: none, or one whose speed a history decides.
+pub fn curve_asked(scenario: &Scenario) -> Option<AtSpeed> {
+    let speed_rad_s = scenario.mean_speed_rad_s();
+    let turns = speed_rad_s != 0.0 && speed_rad_s.is_finite() && !scenario.kind.is_overrun();
+    turns.then(|| AtSpeed { speed_rad_s, reach_nm: reach_nm(scenario) })
+}
+
 /// Decide for `scenario`; `known`: a curve that need not be built again.
 ///
 /// # Errors
@@ -56,9 +69,7 @@ pub fn plan_at(
     effort: Effort,
 ) -> Result<(Plan, Prepared), NoScenario> {
     let (torque, speed) = (scenario.largest_torque_nm(), scenario.mean_speed_rad_s());
-    // Torques of a drivetrain are not those of the scene.
-    let reach_nm = scenario.drivetrain.is_empty().then_some(REACH * torque);
-    let mut reduction = Reduction { reach_nm, effort };
+    let mut reduction = Reduction { reach_nm: reach_nm(scenario), effort };
     let (mut left_out, mut kept) = (Vec::new(), Vec::new());
     if speed == 0.0 {
         left_out.push(Term::free("centrifugal growth of the races", "the scene is at rest"));

@@ -1,16 +1,16 @@
 //! Limits that follow from the static load state, first contact and overrun.
 
+use super::NoMargins;
 use super::capacity::axial_from_nm;
 use super::limits::{Limit, Of, When};
 use super::overrun::{overrun_at, overrun_moments};
 use super::row::{BeyondEnd, Demand, Margin};
 use super::table::LIMITS;
-use super::{NoMargins, curve_at_rest};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
 use crate::profile::{self, Outline, Profile};
 use crate::scenario::AtRest;
-use crate::wedge::{AtSpeeds, Effort, Elastic, EndReason, StaticPoint, WedgeCurve};
+use crate::wedge::{AtSpeed, AtSpeeds, Effort, Elastic, EndReason, StaticPoint, Statics, WedgeCurve};
 
 /// What the static limits are read from: the wedge without its energizing spring, which at such torques presses by parts in
 /// ten thousand harder and lowers |T|/N.
@@ -40,8 +40,8 @@ impl LoadState {
 
     /// The same while the clutch turns at `speed_rad_s`; `None` where no curve is found there.
     pub(crate) fn turning(&self, design: &Design, speed_rad_s: f64) -> Option<Self> {
-        let effort = self.curve.effort();
-        let curve = self.at_speeds.of(&self.curve, &design.clutch, speed_rad_s, None, effort)?;
+        let whole = AtSpeed { speed_rad_s, reach_nm: None };
+        let curve = self.at_speeds.of(self.curve.statics(), &design.clutch, whole)?;
         Some(Self { curve, ..self.clone() })
     }
 }
@@ -59,26 +59,55 @@ pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
 /// # Errors
 /// [`NoMargins`].
 pub fn load_state_at(design: &Design, effort: Effort) -> Result<LoadState, NoMargins> {
-    state_of(design, curve_at_rest(design, effort, None)?, AtSpeeds::default())
+    load_state_with(design, effort, None, &Ahead::default())
 }
 
-/// The same next to `like`.
+/// Curves at speed that are built with a load state, because scenes will ask for them.
+#[derive(Debug, Clone, Default)]
+pub struct Ahead {
+    /// Which.
+    pub asked: Vec<AtSpeed>,
+    /// Whether the curve at rest and those may be built side by side.
+    pub side_by_side: bool,
+}
+
+/// The same with the curves `ahead`, and next to the clutch of `like`.
 ///
 /// # Errors
 /// [`NoMargins`].
-pub fn load_state_beside(design: &Design, effort: Effort, like: &LoadState) -> Result<LoadState, NoMargins> {
-    state_of(design, curve_at_rest(design, effort, Some(&like.curve))?, like.at_speeds.beside())
-}
-
-fn state_of(
+pub fn load_state_with(
     design: &Design,
-    (profile, curve): (Profile, WedgeCurve),
-    at_speeds: AtSpeeds,
+    effort: Effort,
+    like: Option<&LoadState>,
+    ahead: &Ahead,
 ) -> Result<LoadState, NoMargins> {
-    let flanks = design.clutch.sprags.flanks;
-    let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
+    let clutch = &design.clutch;
+    let profile = clutch.profile().map_err(NoMargins::Profile)?;
+    let taken = like.map_or(effort, |like| like.curve.effort());
+    let statics = Statics::at_effort(clutch, &profile, taken).map_err(NoMargins::Curve)?;
+    let at_speeds = like.map_or_else(AtSpeeds::default, |like| like.at_speeds.beside());
+    let at_rest = || WedgeCurve::build_on(statics.clone(), clutch, like.map(|like| &like.curve));
+    let turning = || {
+        for asked in &ahead.asked {
+            // Where there is none, the scene says so.
+            at_speeds.of(&statics, clutch, *asked);
+        }
+    };
+    // Scenes take them at their own effort alone.
+    let curve = if ahead.side_by_side && taken == effort && !ahead.asked.is_empty() {
+        rayon::join(at_rest, turning).0
+    } else {
+        let curve = at_rest();
+        if curve.as_ref().is_ok_and(|curve| curve.effort() == effort) {
+            turning();
+        }
+        curve
+    };
+    let curve = curve.map_err(NoMargins::Curve)?;
+    let outline = clutch.sprags.flanks.map(|f| Outline::closed(&profile, &f)).transpose();
+    let outline = outline.map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
-    let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
+    let alpha_max_rad = alpha_max_rad(clutch, &curve);
     Ok(LoadState { profile, outline, curve, at_speeds, alpha_max_rad, first_tan_omega, looks: None })
 }
 

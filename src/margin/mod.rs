@@ -23,7 +23,7 @@ pub use body::body_flanks_pa;
 pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use hoop::{ring_places_pa, rings_pa};
 pub use limits::{Limit, When, limit_of};
-pub use load::{LoadRows, LoadState, load_state, load_state_at, load_state_beside};
+pub use load::{Ahead, LoadRows, LoadState, load_state, load_state_at, load_state_with};
 pub use overrun::{
     LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
 };
@@ -38,7 +38,7 @@ use crate::clutch::{Clutch, Scenario};
 use crate::design::{Design, Limits};
 use crate::follow::Follow;
 use crate::scenario::{AtRest, Settings};
-use crate::wedge::{Effort, NoCurve, NoElastic, WedgeCurve};
+use crate::wedge::{NoCurve, NoElastic, WedgeCurve};
 use run_out::run_out_margins_until;
 use unlike::unlike_margins_until;
 
@@ -221,18 +221,4 @@ pub fn scene_rows(scenario: &Scenario, found: &SceneDemand, limits: &Limits, req
 /// The same margins of a scene of which nothing is known: a search has them of a neighbour that it does not follow.
 pub(crate) fn unknown_scene_rows(scenario: &Scenario, limits: &Limits) -> Vec<Margin> {
     scenes::unknown_rows(&scenario.name, limits)
-}
-
-/// The curve of a design at rest; `like`: that of one next to it.
-fn curve_at_rest(
-    design: &Design,
-    effort: Effort,
-    like: Option<&WedgeCurve>,
-) -> Result<(crate::profile::Profile, WedgeCurve), NoMargins> {
-    let profile = design.clutch.profile().map_err(NoMargins::Profile)?;
-    let curve = match like {
-        Some(like) => WedgeCurve::build_beside(&design.clutch, &profile, effort, like),
-        None => WedgeCurve::build_reaching_at(&design.clutch, &profile, 0.0, None, effort),
-    };
-    Ok((profile, curve.map_err(NoMargins::Curve)?))
 }

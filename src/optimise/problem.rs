@@ -14,10 +14,11 @@ use crate::design::{Design, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optim
 use crate::fidelity::{self, Effort};
 use crate::file::{DesignForm, EditError, content, with_limits, with_values};
 use crate::margin::{
-    Capacities, LoadRows, LoadState, Margin, NoMargins, RESOLUTION, SceneDemand, When, load_state_at,
-    scene_margins, scene_rows,
+    Ahead, Capacities, LoadRows, LoadState, Margin, NoMargins, RESOLUTION, SceneDemand, When,
+    load_state_with, scene_margins, scene_rows,
 };
 use crate::scenario::{AtRest, Prepared, RollingTrack, Settings, demand, demand_tracked};
+use crate::wedge::AtSpeed;
 use std::sync::{Arc, OnceLock};
 
 /// How an evaluation is computed.
@@ -353,10 +354,17 @@ impl ClutchProblem {
         )
     }
 
-    /// Load states built at the problem's effort.
+    /// Load states built at the problem's effort, with the curves at speed that its scenes ask for.
     fn state(&self) -> impl Fn(usize, &Design) -> Result<Arc<LoadState>, NoMargins> + Sync {
-        let effort = self.effort();
-        move |_, design| load_state_at(design, effort).map(Arc::new)
+        |_, design| self.state_beside(design, None).map(Arc::new)
+    }
+
+    /// One of them; `like`: that of a clutch next to it.
+    fn state_beside(&self, design: &Design, like: Option<&LoadState>) -> Result<LoadState, NoMargins> {
+        let of_it = |s: &&Scenario| self.scenarios.contains(&s.name) && s.clutch == design.clutch;
+        let asked = design.scenarios.iter().filter(of_it).filter_map(fidelity::curve_asked);
+        let ahead = Ahead { asked: AtSpeed::farthest(asked), side_by_side: self.climbs.spreads() };
+        load_state_with(design, self.effort(), like, &ahead)
     }
 
     /// The required rows of a load state.

@@ -31,7 +31,7 @@ impl SideBySide {
 
     /// Whether the parts of an evaluation may be shared out: within what shares threads already. One that is asked for outside stays on
     /// the thread of who asks, so that a process that was forked needs no pool for it.
-    fn spreads(&self) -> bool {
+    pub fn spreads(&self) -> bool {
         rayon::current_thread_index().is_some() && self.leave_threads()
     }
 

@@ -9,7 +9,7 @@ use crate::dynamics::{
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
 use crate::profile::ProfileError;
-use crate::wedge::{AtSpeeds, Effort, NoCurve, StaticPoint, WedgeCurve};
+use crate::wedge::{AtSpeed, AtSpeeds, Effort, NoCurve, StaticPoint, WedgeCurve};
 
 /// Why a scenario has no start. A named outcome, not a fault of the file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -177,7 +177,10 @@ fn at_start(
     let known = known.filter(|k| k.clutch == clutch);
     let build = |speed: f64| {
         let Reduction { reach_nm, effort } = *reduction;
-        let of_known = known.and_then(|k| k.at_speeds.of(k.curve, clutch, speed, reach_nm, effort));
+        let asked = AtSpeed { speed_rad_s: speed, reach_nm };
+        let of_known = known
+            .filter(|k| k.curve.effort() == effort)
+            .and_then(|k| k.at_speeds.of(k.curve.statics(), clutch, asked));
         let anew = || WedgeCurve::build_reaching_at(clutch, &profile, speed, reach_nm, effort);
         of_known.map_or_else(anew, Ok).map_err(NoScenario::Curve)
     };

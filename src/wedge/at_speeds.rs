@@ -1,6 +1,7 @@
 //! Curves of one clutch at several mean speeds, each built once for all who ask.
 
 use super::build::Effort;
+use super::closure::Statics;
 use super::curve::{EndReason, WedgeCurve};
 use crate::clutch::Clutch;
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -28,6 +29,31 @@ struct Slot {
     built: Built,
 }
 
+/// A curve at speed that is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AtSpeed {
+    /// Mean speed, rad/s.
+    pub speed_rad_s: f64,
+    /// Torque beyond which no further arc of it is read, N m; `None`: all of it is.
+    pub reach_nm: Option<f64>,
+}
+
+impl AtSpeed {
+    /// Those of `asked` that reach farthest, one at each speed that is not 0.
+    pub fn farthest(asked: impl IntoIterator<Item = Self>) -> Vec<Self> {
+        let mut found: Vec<Self> = Vec::new();
+        for one in asked.into_iter().filter(|a| a.speed_rad_s != 0.0) {
+            match found.iter_mut().find(|f| f.speed_rad_s == one.speed_rad_s) {
+                Some(known) => {
+                    known.reach_nm = known.reach_nm.zip(one.reach_nm).map(|(a, b)| a.max(b));
+                }
+                None => found.push(one),
+            }
+        }
+        found
+    }
+}
+
 /// Largest truncation of a quick curve whose slopes by the numbers of the clutch are good to 1e-5.
 const TRUSTED_FOR_SLOPES: f64 = 1e-6;
 
@@ -42,31 +68,23 @@ impl AtSpeeds {
         Self { slots: Arc::default(), like: Some(self.slots.clone()), for_slopes: true }
     }
 
-    /// As [`WedgeCurve::build_reaching_at`] has it of `clutch`, always the same, whose curve at rest at this effort is `known` with elastic
-    /// laws and bodies that stand already; `None`: that is to be asked.
-    pub fn of(
-        &self,
-        known: &WedgeCurve,
-        clutch: &Clutch,
-        speed_rad_s: f64,
-        reach_nm: Option<f64>,
-        effort: Effort,
-    ) -> Option<WedgeCurve> {
-        if known.effort != effort {
-            return None;
-        }
+    /// As [`WedgeCurve::build_reaching_at`] has it of `clutch`, always the same, whose elastic laws and bodies are `statics`; `None`: that is
+    /// to be asked.
+    pub fn of(&self, statics: &Statics, clutch: &Clutch, asked: AtSpeed) -> Option<WedgeCurve> {
+        let (AtSpeed { speed_rad_s, reach_nm }, effort) = (asked, statics.effort);
         let like = |effort: Effort| {
             self.like.as_ref().and_then(|slots| held(&slot(slots, speed_rad_s, effort)).clone())
         };
         let own = || {
-            let march = || known.marched(speed_rad_s, reach_nm, like(effort).as_deref());
+            let march =
+                || WedgeCurve::march(statics.clone(), speed_rad_s, reach_nm, like(effort).as_deref()).ok();
             kept(&slot(&self.slots, speed_rad_s, effort), reach_nm, march)
         };
         let full = || {
-            let (profile, like) = (&known.statics().profile, like(Effort::Full));
+            let like = like(Effort::Full);
             let build = || {
-                let like = like.as_deref();
-                WedgeCurve::build_like(clutch, profile, speed_rad_s, reach_nm, Effort::Full, like).ok()
+                let full = Statics::at_effort(clutch, &statics.profile, Effort::Full).ok()?;
+                WedgeCurve::march(full, speed_rad_s, reach_nm, like.as_deref()).ok()
             };
             kept(&slot(&self.slots, speed_rad_s, Effort::Full), reach_nm, build)
         };

@@ -130,7 +130,7 @@ impl AxisTurns {
             }
             Ok(lanes)
         };
-        let (alpha0, exponent) = (curve.first_contact_rad(), curve.exponent);
+        let (alpha0, exponent) = (curve.first_contact_rad(), curve.exponent());
         let mut arcs: Vec<Pieces<READ>> = Vec::with_capacity(curve.arc_count());
         for k in 0..curve.arc_count() {
             let until = curve.arc_end_rad(k);
@@ -248,7 +248,7 @@ impl AxisTurns {
 impl WedgeCurve {
     /// By how much the outer race has turned against the line OG since first contact at this speed, B rolling: the integral of rho_e, rad.
     pub fn outer_roll_rad(&self, alpha: f64) -> f64 {
-        let q = self.exponent;
+        let q = self.exponent();
         let mut sum = 0.0;
         for k in 0..=self.arc_at(alpha) {
             let until = self.arc_end_rad(k).min(alpha);

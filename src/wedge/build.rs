@@ -33,7 +33,7 @@ impl WedgeCurve {
         inner_curvature: InnerCurvature,
     ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), inner_curvature).map_err(NoCurve::NoElastic)?;
-        Self::march(statics, exponent(clutch), speed_rad_s, None, Effort::Full, None)
+        Self::march(statics, speed_rad_s, None, None)
     }
 
     /// As [`Self::build`], without the arcs after the one that carries `reach_nm` (N m), if that is given: the
@@ -61,63 +61,42 @@ impl WedgeCurve {
         reach_nm: Option<f64>,
         effort: Effort,
     ) -> Result<Self, NoCurve> {
-        Self::build_like(clutch, profile, speed_rad_s, reach_nm, effort, None)
+        Self::build_like(Statics::at_effort(clutch, profile, effort)?, clutch, speed_rad_s, reach_nm, None)
     }
 
-    /// The whole curve at rest of a clutch next to that of `like`: its arcs end next to those. To the first order what
-    /// [`Self::build_reaching_at`] builds.
+    /// The whole curve at rest on `statics` of `clutch` ([`Statics::at_effort`]). `like`: that of a clutch next to it, next to whose ends its
+    /// arcs end; it is then, to the first order, what [`Self::build_reaching_at`] builds.
     ///
     /// # Errors
     /// As [`Self::build`].
-    pub fn build_beside(
-        clutch: &Clutch,
-        profile: &Profile,
-        effort: Effort,
-        like: &Self,
-    ) -> Result<Self, NoCurve> {
-        Self::build_like(clutch, profile, 0.0, None, effort, Some(like))
+    pub fn build_on(statics: Statics, clutch: &Clutch, like: Option<&Self>) -> Result<Self, NoCurve> {
+        Self::build_like(statics, clutch, 0.0, None, like)
     }
 
-    /// The same; `like`: that of a clutch next to it, at the same speed, whose effort this takes.
+    /// The curve on `statics`, or the full one where a quick one leaves out too much. `like`: that of a clutch next to it, at the same
+    /// speed and effort.
     pub(super) fn build_like(
+        statics: Statics,
         clutch: &Clutch,
-        profile: &Profile,
         speed_rad_s: f64,
         reach_nm: Option<f64>,
-        effort: Effort,
         like: Option<&Self>,
     ) -> Result<Self, NoCurve> {
-        let statics = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
-        let mut statics = statics.map_err(NoCurve::NoElastic)?;
-        let q = exponent(clutch);
-        let effort = like.map_or(effort, |like| like.effort);
-        if effort == Effort::Full {
-            return Self::march(statics, q, speed_rad_s, reach_nm, effort, like);
-        }
-        let full = statics.clone();
-        statics.effort = effort;
-        statics.elastic = statics.elastic.quickly();
-        match Self::march(statics, q, speed_rad_s, reach_nm, effort, like) {
-            Ok(quick) if like.is_some() || quick.leaves_out_less_than(effort.trusted(), None) => Ok(quick),
+        let (effort, profile) = (statics.effort, statics.profile.clone());
+        match Self::march(statics, speed_rad_s, reach_nm, like) {
+            Ok(found) if like.is_some() || found.leaves_out_less_than(effort.trusted(), None) => Ok(found),
+            Err(none) if effort == Effort::Full => Err(none),
             // Or there is none: the full one decides.
-            _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full, like),
+            _ => {
+                let full = Statics::at_effort(clutch, &profile, Effort::Full)?;
+                Self::march(full, speed_rad_s, reach_nm, like)
+            }
         }
-    }
-
-    /// The curve of the same clutch at mean speed `speed_rad_s` at the effort of this one, whose elastic laws and bodies stand already,
-    /// whatever it leaves out. `like`: that of a clutch next to it.
-    pub(super) fn marched(
-        &self,
-        speed_rad_s: f64,
-        reach_nm: Option<f64>,
-        like: Option<&Self>,
-    ) -> Option<Self> {
-        Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, self.effort, like).ok()
     }
 
     /// Whether up to `reach_nm` (N m) it leaves out less than `part`: a quick one that varies more than a few panels follow does not.
     pub(super) fn leaves_out_less_than(&self, part: f64, reach_nm: Option<f64>) -> bool {
-        self.effort == Effort::Full || self.truncation_of(self.arcs_to(reach_nm)) < part
+        self.effort() == Effort::Full || self.truncation_of(self.arcs_to(reach_nm)) < part
     }
 
     /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
@@ -137,7 +116,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         (statics.offset_m, statics.carrier) = (offset_m, carrier);
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
+        Self::march(statics, 0.0, None, None)
     }
 
     /// This curve, its speed and effort kept, of a sprag that is set apart so. The windup counts from that sprag's own first contact.
@@ -150,7 +129,7 @@ impl WedgeCurve {
         }
         let mut statics = self.statics.clone();
         statics.set_apart(apart);
-        Self::march(statics, self.exponent, self.speed_rad_s, None, self.effort, None)
+        Self::march(statics, self.speed_rad_s, None, None)
     }
 
     /// The curve at rest of sprags whose surfaces have changed by so little that their bodies still give as those of `like` do.
@@ -161,7 +140,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.bulk.clone_from(&like.statics.bulk);
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
+        Self::march(statics, 0.0, None, None)
     }
 
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).
@@ -174,7 +153,7 @@ impl WedgeCurve {
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = statics.elastic.local_only();
         statics.bulk = None;
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
+        Self::march(statics, 0.0, None, None)
     }
 
     /// The curve at rest of a clutch whose bodies are layers of one linear element through half their length, as a deck for
@@ -186,20 +165,19 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = Elastic::with_layers(clutch, element_share).map_err(NoCurve::NoElastic)?;
-        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full, None)
+        Self::march(statics, 0.0, None, None)
     }
 
     /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`. `like`: the curve of a clutch next to this one,
     /// at the same speed.
     pub(super) fn march(
         statics: Statics,
-        exponent: f64,
         speed_rad_s: f64,
         reach_nm: Option<f64>,
-        effort: Effort,
         like: Option<&Self>,
     ) -> Result<Self, NoCurve> {
         let profile = statics.profile.clone();
+        let (effort, exponent) = (statics.effort, statics.exponent);
         let beta0 = profile.beta0_rad;
         // The arc on which first contact lies at this speed: growth of the race may already have turned it.
         let mut first = 0;
@@ -215,7 +193,7 @@ impl WedgeCurve {
                 .map_err(|_| NoCurve::NoFirstContact)?;
         }
         let alpha0 = touch.alpha.v;
-        let like = like.filter(|like| like.first == first && like.effort == effort);
+        let like = like.filter(|like| like.first == first && like.effort() == effort);
         let mut arcs: Vec<Arc<ArcTable>> = Vec::new();
         let (mut n_from, mut shift, mut windup_from) = (0.0, 0.0, 0.0);
         let mut end = EndReason::OffProfile;
@@ -245,7 +223,7 @@ impl WedgeCurve {
                 break;
             };
             let like = like.and_then(|like| like.arcs.get(k - first)).map(AsRef::as_ref);
-            let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, exponent, effort }
+            let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift }
                 .build(n_from, n_until, windup_from, k == first, like)
                 .map_err(|_| NoCurve::NoConvergence)?;
             windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));
@@ -265,20 +243,7 @@ impl WedgeCurve {
         }
         let near_peak_n = like.and_then(|like| *like.peak_n.get()?);
         let (over, peak_n) = (Vec::new(), OnceLock::new());
-        Ok(Self {
-            statics,
-            speed_rad_s,
-            exponent,
-            effort,
-            alpha0,
-            first,
-            arcs,
-            over,
-            end,
-            touch,
-            peak_n,
-            near_peak_n,
-        })
+        Ok(Self { statics, speed_rad_s, alpha0, first, arcs, over, end, touch, peak_n, near_peak_n })
     }
 
     /// Its arc `k`, where it ends by the turn of its contact; `None` where there is no such arc, or torque ends it.
@@ -354,11 +319,6 @@ impl Effort {
             Self::Search | Self::Sketch => 1e-9,
         }
     }
-}
-
-/// q of s = (alpha - alpha_0)^(1/q): 9 for the power of the roller law, 10 for logarithmic laws.
-fn exponent(clutch: &Clutch) -> f64 {
-    if clutch.contact.facts().knows_radius { 10.0 } else { 9.0 }
 }
 
 /// Steps of Newton to the end of an arc, the largest of them, relative, and the one after which the next is less than rounding.

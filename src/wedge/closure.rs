@@ -2,6 +2,7 @@
 
 use super::build::Effort;
 use super::bulk::Bulk;
+use super::curve::NoCurve;
 use super::elastic::{Elastic, NoElastic};
 use super::off_centre::turned;
 use super::patch::{InnerApproach, InnerCurvature};
@@ -175,8 +176,10 @@ pub struct Statics {
     pub profile: Profile,
     /// The curvature that laws which know the radius are given at A.
     pub inner_curvature: InnerCurvature,
-    /// How far a closure settles.
+    /// How far a closure settles, and what goes into a curve.
     pub(super) effort: Effort,
+    /// q: on the first arc all is analytic in (alpha - alpha_0)^(1/q); 9 for the power of the roller law, 10 for logarithmic laws.
+    pub(super) exponent: f64,
     /// Axis of the inner race against that of the outer at this sprag before it rolls on: along OC_e, and across it, m.
     pub(super) offset_m: [f64; 2],
     /// The race that this stays with.
@@ -214,6 +217,7 @@ impl Statics {
             count: s.count,
             inner_curvature,
             effort: Effort::Full,
+            exponent: if clutch.contact.facts().knows_radius { 10.0 } else { 9.0 },
             offset_m: [0.0; 2],
             carrier: Carrier::default(),
             offset_stays: false,
@@ -238,6 +242,18 @@ impl Statics {
                 .map(|a| (a.centre_m.norm(), a.centre_m.x.atan2(a.centre_m.y)))
                 .collect(),
             profile,
+        })
+    }
+
+    /// Prepare for curves at `effort`.
+    ///
+    /// # Errors
+    /// [`NoCurve::NoElastic`].
+    pub fn at_effort(clutch: &Clutch, profile: &Profile, effort: Effort) -> Result<Self, NoCurve> {
+        let full = Self::new(clutch, profile.clone(), InnerCurvature::Patch).map_err(NoCurve::NoElastic)?;
+        Ok(match effort {
+            Effort::Full => full,
+            quick => Self { effort: quick, elastic: full.elastic.quickly(), ..full },
         })
     }
 

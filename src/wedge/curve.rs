@@ -61,9 +61,6 @@ pub struct WedgePoint {
 pub struct WedgeCurve {
     pub(super) statics: Statics,
     pub(super) speed_rad_s: f64,
-    pub(super) exponent: f64,
-    /// What went into it and goes into what is asked of it.
-    pub(super) effort: Effort,
     pub(super) alpha0: f64,
     pub(super) first: usize,
     pub(super) arcs: Vec<Arc<ArcTable>>,
@@ -102,7 +99,7 @@ impl WedgeCurve {
     }
     /// q: on the first arc all is analytic in (alpha - alpha_0)^(1/q); 9 for roller-like laws, 10 for the logarithmic one.
     pub fn exponent(&self) -> f64 {
-        self.exponent
+        self.statics.exponent
     }
     /// Mean speed of the curve, rad/s.
     pub fn speed_rad_s(&self) -> f64 {
@@ -110,7 +107,7 @@ impl WedgeCurve {
     }
     /// What went into it.
     pub fn effort(&self) -> Effort {
-        self.effort
+        self.statics.effort
     }
     /// Number of arcs that the curve reaches.
     pub fn arc_count(&self) -> usize {
@@ -170,9 +167,9 @@ impl WedgeCurve {
 
     /// The same of `arcs`, its first ones.
     pub(super) fn truncation_of(&self, arcs: &[Arc<ArcTable>]) -> f64 {
-        let skip = |k: usize, arc: &ArcTable| match (k, self.effort) {
+        let skip = |k: usize, arc: &ArcTable| match (k, self.effort()) {
             (0, Effort::Full) => 2,
-            (0, Effort::Search | Effort::Sketch) => lowest(self.exponent, arc.cuts),
+            (0, Effort::Search | Effort::Sketch) => lowest(self.exponent(), arc.cuts),
             _ => 0,
         };
         arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k, a))).fold(0.0, f64::max)
@@ -190,9 +187,10 @@ impl WedgeCurve {
         // s = (alpha - alpha_0)^(1/q); N = (s * z/s)^10.
         let x = (alpha - self.alpha0).max(0.0);
         let (at, slope) = levelled(x);
-        let s = at.powf(1.0 / self.exponent);
+        let q = self.statics.exponent;
+        let s = at.powf(1.0 / q);
         let v = arc.table.at(s);
-        point(&v, (s * v[8]).powi(10) * (x / at), slope * s / (self.exponent * at), x)
+        point(&v, (s * v[8]).powi(10) * (x / at), slope * s / (q * at), x)
     }
 
     /// The curve continued below first contact by the tension that a bilateral contact would carry:
@@ -267,7 +265,7 @@ impl WedgeCurve {
             return 0.0;
         }
         let k = self.arc_at(alpha);
-        self.arcs[k].windup_rad(alpha, (k == 0).then_some((self.alpha0, self.exponent)))
+        self.arcs[k].windup_rad(alpha, (k == 0).then_some((self.alpha0, self.exponent())))
     }
 
     /// Exact equilibrium at inner normal force `n_bi`, N, with its arc; `None` beyond the curve's end.
@@ -293,7 +291,7 @@ impl WedgeCurve {
             if fa > 0.0 && k == 0 {
                 continue;
             }
-            if self.effort != Effort::Full
+            if self.effort() != Effort::Full
                 && let Some(found) = self.newton(k, torque_nm, [a, b], [fa, fb])
             {
                 return Some((k, found));
@@ -361,7 +359,7 @@ impl WedgeCurve {
             arc.n_from,
             arc.shift,
             f64::INFINITY,
-            self.effort,
+            self.effort(),
         )
         .map(|(n, _)| n)
     }

@@ -28,7 +28,7 @@ mod table;
 
 pub use crate::contact::{Edge, Peak};
 pub use apart::{Borne, SpragDeviation};
-pub use at_speeds::AtSpeeds;
+pub use at_speeds::{AtSpeed, AtSpeeds};
 pub use axial::{Along, Lengthwise, Side, along, along_drawn, asks_for_slices, even_load_error};
 pub use axis_turns::{AxisTurn, AxisTurns};
 pub use build::Effort;

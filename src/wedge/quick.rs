@@ -79,7 +79,7 @@ impl ArcBuilder<'_> {
     ) -> Result<(Panels<LANES>, Panels<1>), NoClosure> {
         let z_end = n_until.powf(0.1);
         let edges: Vec<Edge> = edges.iter().map(|e| Edge { at: e.at.powf(0.1), ..*e }).collect();
-        let breaks: &[f64] = match self.exponent {
+        let breaks: &[f64] = match self.statics.exponent {
             _ if self.statics.elastic.is_shaped() => &SHAPED_BREAKS,
             _ if self.statics.bulk.is_some() => &BULK_BREAKS,
             LOGARITHMIC => &LOGARITHMIC_BREAKS,
@@ -98,7 +98,7 @@ impl ArcBuilder<'_> {
                 10.0 * unit_integral(z, &edges, |x| rate.at(z * x)[0] * x.powi(8))
             ])
         }));
-        let q = self.exponent;
+        let q = self.statics.exponent;
         let of = |z: f64| (z.powi(9) * mean.at(z)[0]).powf(1.0 / q);
         let s_end = of(z_end);
         let s_edges: Vec<Edge> = edges.iter().map(|e| Edge { at: of(e.at), ..*e }).collect();

@@ -320,10 +320,7 @@ impl WedgeCurve {
     /// file ends, and there is no flank. `None` where no equilibrium is found there, and between races whose axes do not meet.
     pub fn beyond(&self, brink: Option<&Brink>) -> Option<RollOver> {
         let mut curve = match self.end {
-            EndReason::NotBuilt => {
-                Self::march(self.statics.clone(), self.exponent, self.speed_rad_s, None, self.effort, None)
-                    .ok()?
-            }
+            EndReason::NotBuilt => Self::march(self.statics.clone(), self.speed_rad_s, None, None).ok()?,
             _ => self.clone(),
         };
         if curve.end == EndReason::NoConvergence || !curve.statics.is_concentric() {

@@ -194,8 +194,6 @@ pub(super) struct ArcBuilder<'a> {
     pub(super) k: usize,
     pub(super) speed: f64,
     pub(super) shift: f64,
-    pub(super) exponent: f64,
-    pub(super) effort: Effort,
 }
 
 impl ArcBuilder<'_> {
@@ -205,7 +203,7 @@ impl ArcBuilder<'_> {
             return Vec::new();
         }
         let passages =
-            self.statics.edge_passages(self.k, n_from, n_until, self.speed, self.shift, self.effort);
+            self.statics.edge_passages(self.k, n_from, n_until, self.speed, self.shift, self.statics.effort);
         passages.into_iter().map(|(n, _, comes)| Edge { at: n, comes }).collect()
     }
 
@@ -226,20 +224,20 @@ impl ArcBuilder<'_> {
         // Next to where they are a panel holds all but the second order of what they move by.
         let edges = like.map_or_else(|| self.edges(n_from, n_until), |like| like.edges.clone());
         let mut cuts = like.map_or(0, |like| like.cuts);
-        let (lanes, windup) = if self.effort != Effort::Full {
+        let (lanes, windup) = if self.statics.effort != Effort::Full {
             // Next to one that does, as often as there.
             let most = if like.is_some() { cuts } else { MOST_CUTS };
             loop {
                 let found = self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until, cuts)?;
-                let skip = if first { lowest(self.exponent, cuts) } else { 0 };
-                if cuts == most || found.0.truncation(skip) < self.effort.trusted() {
+                let skip = if first { lowest(self.statics.exponent, cuts) } else { 0 };
+                if cuts == most || found.0.truncation(skip) < self.statics.effort.trusted() {
                     break found;
                 }
                 cuts += 1;
             }
         } else if first {
             let (lanes, layout, s_edges) = self.first(n_until, &edges)?;
-            let windup = first_windup(&lanes, &layout, &s_edges, self.exponent);
+            let windup = first_windup(&lanes, &layout, &s_edges, self.statics.exponent);
             (lanes, windup)
         } else {
             let alpha_from = self.closure(n_from)?.alpha.v;
@@ -277,7 +275,7 @@ impl ArcBuilder<'_> {
             .panels::<1, _>(|z| Ok([z * self.closure(z.powi(10).max(FIRST_CONTACT_N))?.alpha.d]))?;
         // A(z) = (alpha - alpha_0)/z^9, split so that each piece of the quadrature is smooth.
         let mean = |z: f64| 10.0 * unit_integral(z, &edges, |x| rate.at(z * x)[0] * x.powi(8));
-        let q = self.exponent;
+        let q = self.statics.exponent;
         let of = |z: f64| (z.powi(9) * mean(z)).powf(1.0 / q);
         let s_end = of(z_end);
         let s_edges: Vec<Edge> = edges.iter().map(|e| Edge { at: of(e.at), ..*e }).collect();

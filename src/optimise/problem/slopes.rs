@@ -5,8 +5,7 @@ use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::{Design, Link};
 use crate::fidelity;
 use crate::margin::{
-    LoadRows, LoadState, Margin, SceneDemand, load_state_at, load_state_beside, scene_margins, scene_rows,
-    unknown_scene_rows,
+    LoadRows, LoadState, Margin, SceneDemand, scene_margins, scene_rows, unknown_scene_rows,
 };
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::scenario::{AtRest, Prepared, RollingTrack, demand_read_again, demand_retraced};
@@ -142,10 +141,7 @@ impl ClutchProblem {
     /// The same at a neighbour `x` of it.
     fn beside(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
         let state = |k: usize, design: &Design| {
-            let state = match tracks.states.get(&k) {
-                Some(like) => load_state_beside(design, self.effort(), like),
-                None => load_state_at(design, self.effort()),
-            }?;
+            let state = self.state_beside(design, tracks.states.get(&k).map(Arc::as_ref))?;
             let looks = tracks.loaded.get(&k).map(|found| found.deciding.clone());
             Ok(Arc::new(LoadState { looks, ..state }))
         };
