@@ -177,12 +177,15 @@ impl<const M: usize> Panels<M> {
     }
 
     /// Size of the last two coefficients relative to the largest, worst lane and panel: what the truncated
-    /// series still misses, as a pure number. The first `skip` panels are passed over.
-    pub fn truncation(&self, skip: usize) -> f64 {
+    /// series still misses, as a pure number. The first `skip` panels are passed over; `beside` may raise the largest of a lane to
+    /// that of another, beside which it counts.
+    pub fn truncation(&self, skip: usize, beside: impl Fn(&mut [f64; M])) -> f64 {
         let mut worst: f64 = 0.0;
         for p in self.panels.iter().skip(skip) {
-            for lane in 0..M {
-                let largest = p.coefficients.iter().map(|r| r[lane].abs()).fold(0.0, f64::max);
+            let mut largest: [f64; M] =
+                std::array::from_fn(|lane| p.coefficients.iter().map(|r| r[lane].abs()).fold(0.0, f64::max));
+            beside(&mut largest);
+            for (lane, largest) in largest.into_iter().enumerate() {
                 let tail = p.coefficients[DEGREE][lane].abs().max(p.coefficients[DEGREE - 1][lane].abs());
                 if largest > 1e-12 {
                     worst = worst.max(tail / largest);
@@ -234,7 +237,7 @@ mod tests {
             assert!((y[0] - x.exp()).abs() < 1e-14 && (y[1] - (3.0 * x).sin()).abs() < 1e-13);
             assert!((d.at(x)[0] - 3.0 * (3.0 * x).cos()).abs() < 1e-11);
         }
-        assert!(p.truncation(0) < 1e-13);
+        assert!(p.truncation(0, |_| ()) < 1e-13);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::build::{Effort, arc_end};
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::elastic::NoElastic;
-use super::quick::lowest;
+use super::quick::{left_out, lowest};
 use super::table::{ArcTable, levelled, point};
 use crate::numeric::{dual::Dual, root};
 use std::sync::{Arc, OnceLock};
@@ -167,12 +167,12 @@ impl WedgeCurve {
 
     /// The same of `arcs`, its first ones.
     pub(super) fn truncation_of(&self, arcs: &[Arc<ArcTable>]) -> f64 {
-        let skip = |k: usize, arc: &ArcTable| match (k, self.effort()) {
-            (0, Effort::Full) => 2,
-            (0, Effort::Search | Effort::Sketch) => lowest(self.exponent(), arc.cuts),
-            _ => 0,
+        let of = |(k, arc): (usize, &Arc<ArcTable>)| match (k, self.effort()) {
+            (_, Effort::Full) => arc.lanes.truncation(if k == 0 { 2 } else { 0 }, |_| ()),
+            (0, _) => left_out(&arc.lanes, lowest(self.exponent(), arc.cuts)),
+            _ => left_out(&arc.lanes, 0),
         };
-        arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k, a))).fold(0.0, f64::max)
+        arcs.iter().enumerate().map(of).fold(0.0, f64::max)
     }
 
     /// Everything at `alpha`, with the functions of arc `k`, which are continued smoothly a little past its

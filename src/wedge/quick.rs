@@ -29,6 +29,12 @@ pub(super) fn lowest(exponent: f64, cuts: u32) -> usize {
     if exponent == LOGARITHMIC { 2 << cuts } else { 1 << cuts }
 }
 
+/// What the lanes of a quick curve leave out, relative: OC_g', some thousandth of rho and nowhere without it, is told beside that.
+pub(super) fn left_out(lanes: &Panels<LANES>, skip: usize) -> f64 {
+    let [rho_i, oc_g_slope] = [2, 5];
+    lanes.truncation(skip, |largest| largest[oc_g_slope] = largest[oc_g_slope].max(largest[rho_i]))
+}
+
 /// Times that panels are halved at most where they vary more than they follow: of an ellipse of parameter 1 + x about 1 + 2 x is left.
 pub(super) const MOST_CUTS: u32 = 2;
 

@@ -8,7 +8,7 @@
 use super::build::Effort;
 use super::closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 use super::curve::WedgePoint;
-use super::quick::{MOST_CUTS, lowest};
+use super::quick::{MOST_CUTS, left_out, lowest};
 use crate::numeric::{
     panels::{Grade, Panels},
     pieces::Pieces,
@@ -230,7 +230,7 @@ impl ArcBuilder<'_> {
             loop {
                 let found = self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until, cuts)?;
                 let skip = if first { lowest(self.statics.exponent, cuts) } else { 0 };
-                if cuts == most || found.0.truncation(skip) < self.statics.effort.trusted() {
+                if cuts == most || left_out(&found.0, skip) < self.statics.effort.trusted() {
                     break found;
                 }
                 cuts += 1;
