@@ -124,7 +124,14 @@ pub(super) fn solve(
         let slopes = slopes.iter().enumerate().map(|(i, g)| (i, -g * radius * scale));
         rows.push(slopes.chain([(rise, 1.0)]), (value - least) * scale);
     }
-    for row in &linear.limits {
+    // A limit that no step in the window reaches is none: most of a clutch's.
+    let least_in_window = |row: &(f64, Vec<f64>)| {
+        let by = |(i, g): (usize, &f64)| (g * lower[i]).min(g * upper[i]);
+        row.0 + row.1.iter().enumerate().map(by).sum::<f64>()
+    };
+    let reached: Vec<bool> = linear.limits.iter().map(|row| least_in_window(row) <= 0.0).collect();
+    let in_reach = linear.limits.iter().zip(&reached).filter(|(_, reached)| **reached);
+    for (row, _) in in_reach {
         let s = limit_scale(row);
         let slopes = row.1.iter().enumerate().map(|(i, g)| (i, -g * radius * s));
         rows.push(slopes.chain([(elastic, -elastic_unit * s)]), row.0 * s);
@@ -174,12 +181,17 @@ pub(super) fn solve(
     let d: Vec<f64> =
         (0..n).map(|i| snapped(found.x[i] * radius, lower[i], upper[i], 1e-9 * radius)).collect();
     let (rise, elastic) = modelled(linear, &d);
-    let limit_multipliers = linear.limits.iter().zip(&found.z[count..]);
+    let mut of_reached = found.z[count..].iter();
+    let mut multiplier = |(row, reached): (&(f64, Vec<f64>), &bool)| {
+        let z = if *reached { of_reached.next().copied() } else { None };
+        z.map_or(0.0, |z| z.max(0.0) * limit_scale(row) / scale)
+    };
+    let limit_multipliers = linear.limits.iter().zip(&reached).map(&mut multiplier).collect();
     Some(Step {
         rise,
         elastic,
         rise_multipliers: found.z[..count].iter().map(|z| z.max(0.0)).collect(),
-        limit_multipliers: limit_multipliers.map(|(row, z)| z.max(0.0) * limit_scale(row) / scale).collect(),
+        limit_multipliers,
         d,
     })
 }
