@@ -8,5 +8,5 @@ mod run;
 
 pub use crate::scenario::Terms;
 pub use crate::wedge::Effort;
-pub use plan::{Plan, Term, curve_asked, plan, plan_at};
+pub use plan::{Plan, Term, curves_asked, plan, plan_at};
 pub use run::{Planned, simulate};

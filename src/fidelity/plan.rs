@@ -44,11 +44,13 @@ fn reach_nm(scenario: &Scenario) -> Option<f64> {
     scenario.drivetrain.is_empty().then_some(REACH * scenario.largest_torque_nm())
 }
 
-/// The curve at speed that [`plan_at`] asks for; `None`: none, or one whose speed a history decides.
-pub fn curve_asked(scenario: &Scenario) -> Option<AtSpeed> {
-    let speed_rad_s = scenario.mean_speed_rad_s();
-    let turns = speed_rad_s != 0.0 && speed_rad_s.is_finite() && !scenario.kind.is_overrun();
-    turns.then(|| AtSpeed { speed_rad_s, reach_nm: reach_nm(scenario) })
+/// The curves at speed that [`plan_at`] asks for, one at each speed, as far as the scene that reaches farthest; without those whose
+/// speed a history decides.
+pub fn curves_asked<'s>(scenes: impl Iterator<Item = &'s Scenario>) -> Vec<AtSpeed> {
+    let asked = scenes
+        .filter(|s| !s.kind.is_overrun())
+        .map(|scenario| AtSpeed { speed_rad_s: scenario.mean_speed_rad_s(), reach_nm: reach_nm(scenario) });
+    AtSpeed::farthest(asked.filter(|a| a.speed_rad_s != 0.0 && a.speed_rad_s.is_finite()))
 }
 
 /// Decide for `scenario`; `known`: a curve that need not be built again.

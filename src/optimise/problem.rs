@@ -18,7 +18,6 @@ use crate::margin::{
     load_state_with, scene_margins, scene_rows,
 };
 use crate::scenario::{AtRest, Prepared, RollingTrack, Settings, demand, demand_tracked};
-use crate::wedge::AtSpeed;
 use std::sync::{Arc, OnceLock};
 
 /// How an evaluation is computed.
@@ -362,8 +361,8 @@ impl ClutchProblem {
     /// One of them; `like`: that of a clutch next to it.
     fn state_beside(&self, design: &Design, like: Option<&LoadState>) -> Result<LoadState, NoMargins> {
         let of_it = |s: &&Scenario| self.scenarios.contains(&s.name) && s.clutch == design.clutch;
-        let asked = design.scenarios.iter().filter(of_it).filter_map(fidelity::curve_asked);
-        let ahead = Ahead { asked: AtSpeed::farthest(asked), side_by_side: self.climbs.spreads() };
+        let asked = fidelity::curves_asked(design.scenarios.iter().filter(of_it));
+        let ahead = Ahead { asked, side_by_side: self.climbs.spreads() };
         load_state_with(design, self.effort(), like, &ahead)
     }
 

@@ -39,10 +39,10 @@ pub struct AtSpeed {
 }
 
 impl AtSpeed {
-    /// Those of `asked` that reach farthest, one at each speed that is not 0.
-    pub fn farthest(asked: impl IntoIterator<Item = Self>) -> Vec<Self> {
+    /// Those of `asked` that reach farthest, one at each speed.
+    pub fn farthest(asked: impl Iterator<Item = Self>) -> Vec<Self> {
         let mut found: Vec<Self> = Vec::new();
-        for one in asked.into_iter().filter(|a| a.speed_rad_s != 0.0) {
+        for one in asked {
             match found.iter_mut().find(|f| f.speed_rad_s == one.speed_rad_s) {
                 Some(known) => {
                     known.reach_nm = known.reach_nm.zip(one.reach_nm).map(|(a, b)| a.max(b));
