@@ -46,12 +46,12 @@ def measured(points, nothing):
         return 0.0
 
     curves = of(r"WedgeCurve>::march$")
-    at_rest = of(r"margin::curve_at_rest$", r"margin::load::load_state_at$", r"margin::load::load_state$")
+    with_state = of(r"margin::load::load_state_with$", r"margin::curve_at_rest$", r"margin::load::load_state_at$", r"margin::load::load_state$")
     phases = {
         "the file: values put in, read": of(r"file::form::DesignForm::at$", r"file::edit::with_values$") + of(r"design::Design>::parse_in$"),
         "curves": curves,
         "rows of the load state": of(r"smooth::load_rows$", r"margin::load_rows$", r"margin::load_margins$", r"margin::load::rows$"),
-        "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - (curves - at_rest), 0.0),
+        "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - max(curves - with_state, 0.0), 0.0),
         "pure-rolling runs": of(r"demand::roll$") or of(r"rolling::rolling$") + of(r"rolling::rolling_tracked$"),
     }
     if not any(phases.values()):

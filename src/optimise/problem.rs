@@ -353,7 +353,7 @@ impl ClutchProblem {
         )
     }
 
-    /// Load states built at the problem's effort, with the curves at speed that its scenes ask for.
+    /// Load states built at the problem's effort, with the curves at speed that its scenes ask for where these run reduced.
     fn state(&self) -> impl Fn(usize, &Design) -> Result<Arc<LoadState>, NoMargins> + Sync {
         |_, design| self.state_beside(design, None).map(Arc::new)
     }
@@ -361,7 +361,8 @@ impl ClutchProblem {
     /// One of them; `like`: that of a clutch next to it.
     fn state_beside(&self, design: &Design, like: Option<&LoadState>) -> Result<LoadState, NoMargins> {
         let of_it = |s: &&Scenario| self.scenarios.contains(&s.name) && s.clutch == design.clutch;
-        let asked = fidelity::curves_asked(design.scenarios.iter().filter(of_it));
+        let scenes = design.scenarios.iter().filter(|_| self.fidelity.reduced).filter(of_it);
+        let asked = fidelity::curves_asked(scenes);
         let ahead = Ahead { asked, side_by_side: self.climbs.spreads() };
         load_state_with(design, self.effort(), like, &ahead)
     }

@@ -129,9 +129,9 @@ pub(super) fn solve(
         let by = |(i, g): (usize, &f64)| (g * lower[i]).min(g * upper[i]);
         row.0 + row.1.iter().enumerate().map(by).sum::<f64>()
     };
-    let reached: Vec<bool> = linear.limits.iter().map(|row| least_in_window(row) <= 0.0).collect();
-    let in_reach = linear.limits.iter().zip(&reached).filter(|(_, reached)| **reached);
-    for (row, _) in in_reach {
+    let in_reach: Vec<usize> =
+        (0..linear.limits.len()).filter(|&j| least_in_window(&linear.limits[j]) <= 0.0).collect();
+    for row in in_reach.iter().map(|&j| &linear.limits[j]) {
         let s = limit_scale(row);
         let slopes = row.1.iter().enumerate().map(|(i, g)| (i, -g * radius * s));
         rows.push(slopes.chain([(elastic, -elastic_unit * s)]), row.0 * s);
@@ -181,12 +181,10 @@ pub(super) fn solve(
     let d: Vec<f64> =
         (0..n).map(|i| snapped(found.x[i] * radius, lower[i], upper[i], 1e-9 * radius)).collect();
     let (rise, elastic) = modelled(linear, &d);
-    let mut of_reached = found.z[count..].iter();
-    let mut multiplier = |(row, reached): (&(f64, Vec<f64>), &bool)| {
-        let z = if *reached { of_reached.next().copied() } else { None };
-        z.map_or(0.0, |z| z.max(0.0) * limit_scale(row) / scale)
-    };
-    let limit_multipliers = linear.limits.iter().zip(&reached).map(&mut multiplier).collect();
+    let mut limit_multipliers = vec![0.0; linear.limits.len()];
+    for (&j, z) in in_reach.iter().zip(&found.z[count..]) {
+        limit_multipliers[j] = z.max(0.0) * limit_scale(&linear.limits[j]) / scale;
+    }
     Some(Step {
         rise,
         elastic,
@@ -224,6 +222,24 @@ mod tests {
         assert!((step.rise - 1.3 / 3.0).abs() < 1e-9 && step.elastic < 1e-9);
         assert!((step.rise_multipliers[0] - 2.0 / 3.0).abs() < 1e-8);
         assert!((step.limit_multipliers[0] - 1.0 / 3.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_limit_out_of_reach_has_no_price_and_moves_no_other() {
+        // The same with a limit that no step within the window comes near, before the one that holds.
+        let near = Linear {
+            rises: vec![(0.0, vec![1.0, 0.0]), (1.0, vec![-2.0, 1.0])],
+            limits: vec![(0.3, vec![0.0, -1.0])],
+        };
+        let mut with_far = near.clone();
+        with_far.limits.insert(0, (2.5, vec![1.0, 1.0]));
+        let solved = |linear: &Linear| {
+            solve(linear, &DMatrix::zeros(2, 2), &[-1.0; 2], &[1.0; 2], Ask::Merit { weight: 10.0 }).unwrap()
+        };
+        let (alone, with_far) = (solved(&near), solved(&with_far));
+        assert_eq!(with_far.limit_multipliers[0], 0.0);
+        assert!((with_far.limit_multipliers[1] - 1.0 / 3.0).abs() < 1e-8);
+        assert!(alone.d.iter().zip(&with_far.d).all(|(a, b)| (a - b).abs() < 1e-9));
     }
 
     #[test]

@@ -113,8 +113,7 @@ impl WedgeCurve {
         offset_m: [f64; 2],
         carrier: Carrier,
     ) -> Result<Self, NoCurve> {
-        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
-        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        let mut statics = Statics::at_effort(clutch, profile, Effort::Full)?;
         (statics.offset_m, statics.carrier) = (offset_m, carrier);
         Self::march(statics, 0.0, None, None)
     }
@@ -137,8 +136,7 @@ impl WedgeCurve {
     /// # Errors
     /// As [`Self::build`].
     pub fn build_with_body_of(clutch: &Clutch, profile: &Profile, like: &Self) -> Result<Self, NoCurve> {
-        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
-        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        let mut statics = Statics::at_effort(clutch, profile, Effort::Full)?;
         statics.bulk.clone_from(&like.statics.bulk);
         Self::march(statics, 0.0, None, None)
     }
@@ -149,8 +147,7 @@ impl WedgeCurve {
     /// # Errors
     /// As [`Self::build`].
     pub fn build_local(clutch: &Clutch, profile: &Profile) -> Result<Self, NoCurve> {
-        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
-        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        let mut statics = Statics::at_effort(clutch, profile, Effort::Full)?;
         statics.elastic = statics.elastic.local_only();
         statics.bulk = None;
         Self::march(statics, 0.0, None, None)
@@ -162,8 +159,7 @@ impl WedgeCurve {
     /// # Errors
     /// As [`Self::build`].
     pub fn build_as_deck(clutch: &Clutch, profile: &Profile) -> Result<Self, NoCurve> {
-        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
-        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        let mut statics = Statics::at_effort(clutch, profile, Effort::Full)?;
         statics.elastic = Elastic::with_layers(clutch, element_share).map_err(NoCurve::NoElastic)?;
         Self::march(statics, 0.0, None, None)
     }

@@ -3,7 +3,7 @@
 use super::build::{Effort, arc_end};
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::elastic::NoElastic;
-use super::quick::{left_out, lowest};
+use super::quick::left_out;
 use super::table::{ArcTable, levelled, point};
 use crate::numeric::{dual::Dual, root};
 use std::sync::{Arc, OnceLock};
@@ -167,10 +167,9 @@ impl WedgeCurve {
 
     /// The same of `arcs`, its first ones.
     pub(super) fn truncation_of(&self, arcs: &[Arc<ArcTable>]) -> f64 {
-        let of = |(k, arc): (usize, &Arc<ArcTable>)| match (k, self.effort()) {
-            (_, Effort::Full) => arc.lanes.truncation(if k == 0 { 2 } else { 0 }, |_| ()),
-            (0, _) => left_out(&arc.lanes, lowest(self.exponent(), arc.cuts)),
-            _ => left_out(&arc.lanes, 0),
+        let of = |(k, arc): (usize, &Arc<ArcTable>)| match self.effort() {
+            Effort::Full => arc.lanes.truncation(if k == 0 { 2 } else { 0 }, |_| ()),
+            Effort::Search | Effort::Sketch => left_out(&arc.lanes, k == 0, self.exponent(), arc.cuts),
         };
         arcs.iter().enumerate().map(of).fold(0.0, f64::max)
     }

@@ -25,12 +25,14 @@ pub(super) const TRUSTED: f64 = 3e-8;
 
 /// Lowest panels of the first arc for which [`TRUSTED`] is not asked: those below 1e-5 of its largest N, where what a closure
 /// leaves unsettled is more than that of OC_g', which is next to nothing there. `exponent`: q of the law; `cuts`: times that they were halved.
-pub(super) fn lowest(exponent: f64, cuts: u32) -> usize {
+fn lowest(exponent: f64, cuts: u32) -> usize {
     if exponent == LOGARITHMIC { 2 << cuts } else { 1 << cuts }
 }
 
-/// What the lanes of a quick curve leave out, relative: OC_g', some thousandth of rho and nowhere without it, is told beside that.
-pub(super) fn left_out(lanes: &Panels<LANES>, skip: usize) -> f64 {
+/// What the lanes of a quick arc leave out, relative, but in its [`lowest`] panels where it is the `first`: OC_g', some thousandth of rho and
+/// nowhere without it, is told beside that.
+pub(super) fn left_out(lanes: &Panels<LANES>, first: bool, exponent: f64, cuts: u32) -> f64 {
+    let skip = if first { lowest(exponent, cuts) } else { 0 };
     let [rho_i, oc_g_slope] = [2, 5];
     lanes.truncation(skip, |largest| largest[oc_g_slope] = largest[oc_g_slope].max(largest[rho_i]))
 }

@@ -8,7 +8,7 @@
 use super::build::Effort;
 use super::closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 use super::curve::WedgePoint;
-use super::quick::{MOST_CUTS, left_out, lowest};
+use super::quick::{MOST_CUTS, left_out};
 use crate::numeric::{
     panels::{Grade, Panels},
     pieces::Pieces,
@@ -229,8 +229,8 @@ impl ArcBuilder<'_> {
             let most = if like.is_some() { cuts } else { MOST_CUTS };
             loop {
                 let found = self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until, cuts)?;
-                let skip = if first { lowest(self.statics.exponent, cuts) } else { 0 };
-                if cuts == most || left_out(&found.0, skip) < self.statics.effort.trusted() {
+                let left_out = left_out(&found.0, first, self.statics.exponent, cuts);
+                if cuts == most || left_out < self.statics.effort.trusted() {
                     break found;
                 }
                 cuts += 1;
