@@ -126,10 +126,10 @@ import sprag_design as sd
 design = sd.Design.load(sys.argv[1])
 threading.Timer(5.0, os.kill, (os.getpid(), signal.SIGINT)).start()
 try:
-    design.resonance("high-6", frequency_hz=(50, 150), amplitude_nm=(1, 20), points=(2, 1000))
+    design.resonance("high-6", frequency_hz=(50, 150), amplitude_nm=(1, 20), points=(10, 1000))
 except sd.Interrupted as ended:
     found = ended.found
-    print(len(found.states) == 2 * (1000 - found.amplitudes_left) > 0, "stopped" in found.verdict)
+    print(len(found.states) == 10 * (1000 - found.amplitudes_left) > 0, "stopped" in found.verdict)
 """
     done = python(code, MULTI_ARC)
     assert done.stdout.split() == ["True", "True"], done.stderr

@@ -3,6 +3,7 @@
 use crate::answer::search::{Hints, SearchSettings};
 use crate::design::Design;
 use crate::follow::{Follow, News};
+use serde_json::{json, Value};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -15,6 +16,13 @@ pub struct SearchProgress {
     pub words: String,
     /// The design file found.
     pub text: Option<String>,
+}
+
+impl SearchProgress {
+    /// As the page is told.
+    pub fn told(&self) -> Value {
+        json!({ "running": self.running, "said": self.words, "text": self.text })
+    }
 }
 
 #[derive(Debug)]

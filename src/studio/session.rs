@@ -126,16 +126,15 @@ impl Session {
             let why = "a search is running already, from this page or another; stop it first";
             return Err(StudioRefusal::new(why));
         }
-        *searching = Some(Searching::begin(self.design(question)?));
-        Ok(Value::Null)
+        let begun = Searching::begin(self.design(question)?);
+        let said = begun.progress().told();
+        *searching = Some(begun);
+        Ok(said)
     }
 
     fn progress(&self) -> Value {
         let none = || json!({ "running": false, "said": "no search was begun", "text": null });
-        locked(&self.searching).as_ref().map_or_else(none, |search| {
-            let p = search.progress();
-            json!({ "running": p.running, "said": p.words, "text": p.text })
-        })
+        locked(&self.searching).as_ref().map_or_else(none, |search| search.progress().told())
     }
 
     fn design(&self, question: &Value) -> Result<Design, StudioRefusal> {

@@ -484,11 +484,13 @@ let searching = false;
 $("optimise").addEventListener("click", async () => {
   if (searching) { engine.ask("stop", {}).catch(complain); return; }
   try {
-    await engine.ask("optimise", { text: state.text });
+    const begun = await engine.ask("optimise", { text: state.text });
     searching = true;
     $("optimise").textContent = "Stop";
-    for (;;) {
-      await new Promise((wait) => setTimeout(wait, 400));
+    say(begun.said);
+    // Most searches end in less than a second: asked often at first, then seldom.
+    for (let pause = 50; ; pause = Math.min(2 * pause, 400)) {
+      await new Promise((wait) => setTimeout(wait, pause));
       const found = await engine.ask("progress", {});
       say(found.said);
       if (found.running) continue;
