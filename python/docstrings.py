@@ -1,6 +1,6 @@
 """Docstrings of the answers' fields from the comments of the Rust structs that they come from.
 
-    python python/docstrings.py            writes them into package/sprag_design/_answers.py and _made.py
+    python python/docstrings.py            writes them into those of package/sprag_design
     python python/docstrings.py --check    ends with 1 where they are not those of the structs
 
 A field whose key no struct has (an answer that is put together key by key) keeps its own docstring.
@@ -15,7 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "python" / "package" / "sprag_design"
-MODULES = [PACKAGE / "_answers.py", PACKAGE / "_made.py"]
+MODULES = [PACKAGE / "_answers.py", PACKAGE / "_made.py", PACKAGE / "_identified.py"]
 WIDTH = 128
 
 STRUCTS = {
@@ -50,6 +50,7 @@ STRUCTS = {
     "ComparedMargin": ["answer/comparison/body.rs ComparedMargin"],
     "ComparedScene": ["answer/comparison/body.rs ComparedScene"],
     "Comparison": ["answer/comparison/body.rs ComparisonBody"],
+    "Identification": ["answer/identification/body.rs IdentificationBody"],
     "Resonance": ["answer/resonance/body.rs ResonanceBody"],
 }
 """Class of Python: file and struct of Rust."""

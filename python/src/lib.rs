@@ -6,6 +6,7 @@
 mod design;
 mod errors;
 mod export;
+mod identified;
 mod made;
 mod pool;
 mod problem;
@@ -42,6 +43,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sweep::map_tables, module)?)?;
     module.add_function(wrap_pyfunction!(search::optimize, module)?)?;
     module.add_function(wrap_pyfunction!(resonance::resonance, module)?)?;
+    module.add_function(wrap_pyfunction!(identified::identify, module)?)?;
     module.add_class::<made::Compared>()?;
     module.add_function(wrap_pyfunction!(made::purposes, module)?)?;
     module.add_function(wrap_pyfunction!(made::first_design, module)?)?;

@@ -204,3 +204,56 @@ def test_an_export_goes_into_a_folder_and_over_nothing(design: sd.Design, tmp_pa
 def test_tracks_that_are_there_are_kept() -> None:
     found = sd.new("helicopter", bore_mm=18, torque_nm=130, inner_track_mm=28, outer_track_mm=44.7)
     assert (found.design["races.inner_radius_mm"], found.design["races.outer_radius_mm"]) == (14.0, 22.35)
+
+
+WINDUPS: dict[str, list[float | None]] = {"torque_nm": [10, 16.8, 30, 50], "windup_deg": [1.2345, 1.94, None, 5.1], "k_secant_nm_per_rad": [None, None, 540.0, None]}
+UNKNOWN: dict[str, tuple[float, float]] = {"r_i2_mm": (3.6, 4.6), "friction.static": (0.05, 0.2)}
+
+
+def test_what_is_identified_is_that_of_the_command(design: sd.Design, command: Command, tmp_path: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    table, new = tmp_path / "seen.csv", tmp_path / "new.toml"
+    pandas.DataFrame(WINDUPS).to_csv(table, index=False)
+    words = ",".join(f"{name}:{low}:{high}" for name, (low, high) in UNKNOWN.items())
+    said = command("identify", MULTI_ARC, "--data", table, "--unknown", words, "-o", new, "--json", "--quiet")
+    found = design.identify(WINDUPS, UNKNOWN)
+    theirs = figures(said.stdout)
+    assert theirs.pop("written") == str(new) and mine(found.to_dict()) | {"written": str(new)} == theirs | {"written": str(new)}
+    assert found.observations is not None and [row.line for row in found.observations] == [2, 3, 4, 5]
+    assert found.determined is False and found.unknowns[1].note and "friction.static" in found.verdict
+    # The file is the command's but for who asked.
+    rest = [line for line in found.design.text.splitlines() if not line.startswith("# by")]
+    assert rest == [line for line in new.read_text().splitlines() if not line.startswith("# by")]
+    assert found.design.get("sprags.inner_arcs[1].radius_mm") == found.unknowns[0].value
+    for data in (table, str(table), pandas.read_csv(table)):
+        assert mine(design.identify(data, UNKNOWN).to_dict()) == mine(found.to_dict())
+    assert found.to_pandas().line.tolist() == [2, 3, 4, 5] and pickle.loads(pickle.dumps(found)).verdict == found.verdict
+    for data, unknowns, word in [
+        ({"torque_nm": [10], "windup_deg": [1, 2]}, UNKNOWN, "different lengths"),
+        ({"torque_nm": [10], "windup_de": [1]}, UNKNOWN, "windup_de"),
+        (WINDUPS, {"r_i9_mm": (1, 2)}, "r_i9_mm"),
+        (WINDUPS, {"r_i2_mm": (4.2, 3.9)}, "not below"),
+        (WINDUPS, {"r_i2_mm": 4.2}, "its bounds"),
+        (WINDUPS, {"r_i2_mm": (4.0, float("inf"))}, "inf is no finite number"),
+    ]:
+        with pytest.raises(ValueError, match=word):
+            design.identify(data, unknowns)  # type: ignore[arg-type]
+    with pytest.raises(FileNotFoundError):
+        design.identify(tmp_path / "none.csv", UNKNOWN)
+
+
+@needs_fork
+def test_a_fit_that_is_stopped_leaves_the_best_so_far() -> None:
+    code = """
+import os, signal, sys, threading
+import sprag_design as sd
+design = sd.Design.load(sys.argv[1])
+threading.Timer(5.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    design.identify({"torque_nm": [10, 50], "windup_deg": [1.2345, 5.1]}, {"r_i2_mm": (3.6, 4.6)}, starts=1000, evaluations=1_000_000)
+except sd.Interrupted as ended:
+    found = ended.found
+    print(found.observations is None, "stopped" in found.verdict, 3.6 <= found.unknowns[0].value <= 4.6)
+"""
+    done = python(code, MULTI_ARC)
+    assert done.stdout.split() == ["True"] * 3, done.stderr

@@ -43,11 +43,23 @@ impl FromStr for Unknown {
             Ok(value) if value.is_finite() => Ok(value),
             _ => Err(format!("{text:?} is no finite number")),
         };
-        let (min, max) = (bound(min)?, bound(max)?);
+        Self::between((*name).to_owned(), bound(min)?, bound(max)?)
+    }
+}
+
+impl Unknown {
+    /// An unknown between two bounds.
+    ///
+    /// # Errors
+    /// What is wrong with the bounds: one is no finite number, or they do not rise.
+    pub fn between(name: String, min: f64, max: f64) -> Result<Self, String> {
+        if let Some(bad) = [min, max].into_iter().find(|bound| !bound.is_finite()) {
+            return Err(format!("{bad} is no finite number"));
+        }
         if min >= max {
             return Err(format!("the lower bound {min} is not below the upper bound {max}"));
         }
-        Ok(Self { name: (*name).to_owned(), min, max })
+        Ok(Self { name, min, max })
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::answer::search::{Hints, SearchSettings};
 use crate::design::Design;
 use crate::follow::{Follow, News};
-use serde_json::{json, Value};
+use serde_json::{Value, json};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 

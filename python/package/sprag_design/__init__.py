@@ -60,6 +60,7 @@ from ._answers import (
 )
 from ._design import Design, map_tables
 from ._errors import DesignError, DesignProblem, Interrupted, NoClutch, NotSized
+from ._identified import FoundUnknown, Identification, Observed
 from ._made import (
     ComparedDesign,
     ComparedFigure,
@@ -103,8 +104,10 @@ __all__ = [
     "FilmOverrunLine",
     "FirstDesign",
     "Found",
+    "FoundUnknown",
     "Front",
     "FrontPoint",
+    "Identification",
     "Interrupted",
     "Junction",
     "LeftOut",
@@ -114,6 +117,7 @@ __all__ = [
     "Margin",
     "NoClutch",
     "NotSized",
+    "Observed",
     "Optimum",
     "Overrun",
     "OverrunPoint",

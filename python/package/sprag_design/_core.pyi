@@ -16,6 +16,7 @@ __all__ = [
     "deck",
     "first_design",
     "forked",
+    "identify",
     "map_tables",
     "optimize",
     "part",
@@ -137,6 +138,16 @@ def optimize(
     by: str,
     progress: Callable[[str], bool] | None,
 ) -> tuple[str, str, Design, Design | None, list[str], bool]: ...
+def identify(
+    design: Design,
+    table: str,
+    named: str,
+    unknowns: Sequence[tuple[str, float, float]],
+    starts: int,
+    seed: int,
+    evaluations: int,
+    by: str,
+) -> tuple[str, str, str, str, bool]: ...
 def resonance(
     design: Design,
     scenario: str | None,

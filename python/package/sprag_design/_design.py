@@ -7,9 +7,9 @@ import json
 import math
 import os
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._answers import (
@@ -40,8 +40,12 @@ from ._arguments import Setting, called, listed, positive, span, toml, whole, wh
 from ._errors import Interrupted
 from ._export import export
 from ._files import write
+from ._identified import Identification, identify
 from ._made import Page, Resonance
 from ._problem import Problem
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 class Design:
     """A checked clutch design, which never changes. :meth:`with_` and :meth:`set` give another."""
@@ -382,6 +386,26 @@ class Design:
         if interrupted:
             raise Interrupted(found)
         return found
+
+    def identify(
+        self,
+        data: str | os.PathLike[str] | Mapping[str, Iterable[Any]] | pd.DataFrame,
+        unknowns: Mapping[str, tuple[float, float]],
+        *,
+        starts: float = 4,
+        seed: float = 1,
+        evaluations: float = 200,
+    ) -> Identification:
+        """Unknown parameters from measured or published numbers: the design that fits them best, how well each value is known, and what
+        the data cannot tell apart. ``data``: a file (CSV) or columns by name, a row for each test, as the command ``identify`` has them:
+        ``torque_nm`` with ``windup_deg``, ``normal_inner_n``, ..., ``nominal_torque_nm``, ``lift_off_rpm``; ``<column>_sigma``; dotted
+        keys that a row changes; a cell that is ``None`` or NaN says nothing. ``unknowns``: the bounds of each, by the name of a variable
+        or the dotted path of a number. ``starts``, ``seed``, ``evaluations``: of the search.
+
+        Raises ``ValueError`` for data or unknowns that make no sense, :class:`NoClutch` where no design between the bounds can be compared
+        with the data; Ctrl-C raises :class:`Interrupted` with the best so far.
+        """
+        return identify(self, data, unknowns, starts, seed, evaluations)
 
     def sheet(self) -> Page:
         """The design sheet, HTML: verdict, dimensioned drawing, margins, scenes, all inputs; prints on A4.

@@ -73,12 +73,12 @@ class NotSized(NoClutch):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C has ended a search or a map, whose answer so far is :attr:`found`. Who does not catch it sees a ``KeyboardInterrupt``."""
+    """Ctrl-C has ended a search, a fit or a map, whose answer so far is :attr:`found`. Who does not catch it sees a ``KeyboardInterrupt``."""
 
     def __init__(self, found: Any) -> None:
         super().__init__("stopped; what was found until then is the attribute `found` of this exception")
         self.found = found
-        """The answer of what was stopped: an ``Optimum``, a ``Front`` or a ``Resonance``."""
+        """The answer of what was stopped: an ``Optimum``, a ``Front``, an ``Identification`` or a ``Resonance``."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Interrupted, (self.found,)

@@ -63,18 +63,21 @@ impl<'a> StoppedIdentification<'a> {
         head(self.design, command) + &remark + &values + "#\n" + &self.so_far.source
     }
 
+    /// What was found, in a sentence.
+    pub fn verdict(&self) -> String {
+        format!(
+            "stopped by Ctrl-C: the best of {} designs so far, sum of squared scaled residuals {:.6e}; the search has not ended, and how \
+             well the values are known was not looked at",
+            self.so_far.evaluations, self.so_far.sum
+        )
+    }
+
     /// The answer on a terminal; `written`: where the file is.
     pub fn text(&self, written: Option<&str>) -> String {
         let values: Vec<String> =
             self.named().map(|(u, value)| format!("  {} = {value}\n", u.name)).collect();
-        format!(
-            "stopped by Ctrl-C: the best of {} designs so far, sum of squared scaled residuals {:.6e}; the search has not ended, and how \
-             well the values are known was not looked at\n{}{}",
-            self.so_far.evaluations,
-            self.so_far.sum,
-            values.concat(),
-            written.map_or(String::new(), |path| format!("Written: {path}\n")),
-        )
+        let written = written.map_or(String::new(), |path| format!("Written: {path}\n"));
+        format!("{}\n{}{written}", self.verdict(), values.concat())
     }
 
     /// The answer with the keys that all answers share.
