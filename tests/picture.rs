@@ -157,9 +157,12 @@ fn section(path: &str, table: &serde_json::Value, designs: &[toml::Value], page:
     *page += &format!("\n## {heading}\n\n{}\n", text(table));
     let needed = |name: &str| table["required"].as_array().is_some_and(|r| r.iter().any(|k| k == name));
     let (mut rows, mut within) = (String::new(), Vec::new());
+    let whole = schema();
+    let top = &whole["properties"];
     for (name, key) in table["properties"].as_object().unwrap() {
         let full = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
-        let repeats = path == "scenarios[]" || full == "optimize.limits";
+        // What a scenario says otherwise has its section at the top.
+        let repeats = path == "scenarios[]" && top.get(name).is_some() || full == "optimize.limits";
         if key["type"] == "object" && repeats {
             rows += &format!("| `{name}` | {} | keys of `[{name}]` | | |\n", text(key));
         } else if key["type"] == "object" {

@@ -89,6 +89,11 @@ impl Objective {
         self.facts().words
     }
 
+    /// Whether it is taken over scenarios, so that it needs one.
+    pub fn of_scenes(self) -> bool {
+        matches!(self, Self::SlipMargin | Self::ContactMargin)
+    }
+
     /// +1 where more is better, -1 where less is.
     pub fn sense(self) -> f64 {
         self.facts().sense

@@ -50,7 +50,7 @@ pub(super) struct SharingFile {
     /// Sprags of which something is known.
     #[serde(default)]
     pub sprags: Vec<GivenSpragFile>,
-    /// Tracks that are not round as made, a wave each; not in scenes.
+    /// Tracks that are not round as made, a wave each.
     #[serde(default)]
     pub tracks: Vec<TrackWaveFile>,
 }

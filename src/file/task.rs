@@ -78,6 +78,11 @@ fn objective(task: &OptimizeFile, limits: &Limits, out: &mut Findings) {
     let key = "optimize.objective";
     let wanted = task.objective;
     match wanted {
+        _ if wanted.of_scenes() && task.scenarios.is_empty() => out.refuse(
+            &["optimize.scenarios", key],
+            format!("at least one scenario, over which {wanted} is taken"),
+            "name scenarios of this file, or another objective".to_owned(),
+        ),
         Objective::TorqueCapacity | Objective::PeakPressure if limits.peak_torque_nm.is_none() => out.refuse(
             &[key],
             format!("{wanted} with a peak torque, at which the limits are held"),

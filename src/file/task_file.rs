@@ -24,8 +24,8 @@ pub(super) struct OptimizeFile {
     /// windup (at nominal torque), stiffness-curve (windups as in target), keep-contact or lift-off (the speed of lift-off,
     /// more or less of it), drag, mass, width or outside-diameter. `explain NAME` says more of each.
     pub objective: Objective,
-    /// Names of the scenarios whose smallest slip margin is maximised, or which are limits of another objective.
-    #[schemars(length(min = 1))]
+    /// Names of the scenarios whose smallest slip margin is maximised, or which are limits of another objective, which can do without any.
+    #[serde(default)]
     pub scenarios: Vec<String>,
     /// Wanted windups of stiffness-curve: pairs of torque, N m, and windup, deg.
     #[serde(default)]

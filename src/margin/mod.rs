@@ -25,7 +25,8 @@ pub use hoop::{ring_places_pa, rings_pa};
 pub use limits::{Limit, When, limit_of};
 pub use load::{Ahead, LoadRows, LoadState, load_state, load_state_at, load_state_with};
 pub use overrun::{
-    LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
+    LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, lift_off_under,
+    overrun_at, overrun_curve,
 };
 pub use row::{BeyondEnd, Demand, Left, Margin, RESOLUTION, Rule, lowest_capacity};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};

@@ -142,9 +142,14 @@ const FIRST_TURN: f64 = 1e-6;
 /// Lift-off speed, rad/s, of the outer race, in a driven cage of the inner one: opening = closing moment, which is where [`overrun_at`]
 /// ends to find a normal force at the sliding contact; `None` where contact is kept to `up_to`.
 pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Option<f64> {
+    lift_off_under(design, state, 1.0, up_to_rad_s)
+}
+
+/// The same where the spring presses `times` as hard.
+pub fn lift_off_under(design: &Design, state: &LoadState, times: f64, up_to_rad_s: f64) -> Option<f64> {
     let left = |speed: f64| {
         let (opening, closing) = overrun_moments(design, state, speed);
-        closing - opening
+        times * closing - opening
     };
     // Without a spring nothing presses at rest, and the first turn decides.
     let from = if left(0.0) == 0.0 { FIRST_TURN * up_to_rad_s } else { 0.0 };

@@ -237,6 +237,15 @@ impl Race {
     pub fn centrifugal_bore_growth_m(&self, speed_rad_s: f64) -> f64 {
         self.bore_m / self.material.youngs_modulus_pa * self.rotating_bore_hoop_pa(speed_rad_s)
     }
+
+    /// Growth of its outside, bore and outside free, at `speed_rad_s`, m: rho omega^2 R_o/(4E) [(3+nu) R_b^2 + (1-nu) R_o^2] (Timoshenko,
+    /// as above), of which a solid shaft has the second term alone.
+    pub fn centrifugal_outside_growth_m(&self, speed_rad_s: f64) -> f64 {
+        let (nu, e) = (self.material.poisson_ratio, self.material.youngs_modulus_pa);
+        let inertia = self.material.density_kg_m3 * speed_rad_s.powi(2);
+        let squares = (3.0 + nu) * self.bore_m.powi(2) + (1.0 - nu) * self.outside_m.powi(2);
+        inertia * self.outside_m / (4.0 * e) * squares
+    }
 }
 
 #[cfg(test)]
@@ -328,6 +337,8 @@ mod tests {
         close(outer().centrifugal_bore_growth_m(speed), bore.growth_m, 1e-9);
         close(outer().rotating_bore_hoop_pa(speed), bore.hoop_pa, 1e-9);
         close(eq_7_as_printed(19.44e-3, 26.23e-3, speed), 4.0 * bore.growth_m, 1e-9);
+        let (_, outside) = Disc::new(7.21e-3, 11.11e-3, STEEL, speed).rims(0.0, 0.0);
+        close(inner().centrifugal_outside_growth_m(speed), outside.growth_m, 1e-9);
         // 2.06 um for Table 1 at 20 000 rpm
         close(outer().centrifugal_bore_growth_m(speed), 2.06e-6, 3e-3);
     }

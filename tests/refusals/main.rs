@@ -344,7 +344,7 @@ fn check_and_optimize() {
         Case(&[("[\"low-10\", \"rated-45\"]", "[\"low-10\", \"rated-46\"]")], "check.scenarios[1]", "rated-46", &["high-6, high-8", "name a scenario"]),
         Case(&[("[\"low-10\", \"rated-45\"]", "[\"low-10\", \"low-10\"]")], "check.scenarios[1]", "[\"low-10\", \"low-10\"]", &["each scenario once"]),
         Case(&[("[\"high-6\", \"low-10\",", "[\"high-7\", \"low-10\",")], "optimize.scenarios[0]", "high-7", &["the string \"high-7\""]),
-        Case(&[("scenarios = [\"high-6\", \"low-10\", \"rated-45\", \"rated-45-at-speed\"]", "scenarios = [] # none")], "optimize.scenarios", "# none", &["at least one entry"]),
+        Case(&[("scenarios = [\"high-6\", \"low-10\", \"rated-45\", \"rated-45-at-speed\"]", "scenarios = [] # none")], "optimize.scenarios", "# none", &["at least one scenario, over which slip-margin is taken"]),
         Case(&[("name = \"r_i2_mm\"", "name = \"r_i4_mm\"")], "optimize.variables[0].name", "r_i4_mm", &["r_i1_mm, r_i2_mm, r_i3_mm, junction_1_rad, junction_2_rad, profile_end_rad"]),
         Case(&[("name = \"r_i2_mm\"", "name = \"r_i3_mm\"")], "optimize.variables[1].name", "max = 5.2", &["each variable once"]),
         Case(&[("name = \"r_i2_mm\"", "name = \"flank_rear_mm\"")], "optimize.variables[0].name", "flank_rear_mm", &["sprags.flanks.rear_mm is not"]),

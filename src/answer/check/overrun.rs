@@ -6,7 +6,8 @@ use crate::dynamics::CageFacts;
 use crate::file::inputs;
 use crate::follow::Follow;
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
+    LIFT_OFF_TO_RAD_S, LoadState, OverrunCurve, OverrunPoint, lift_off_rad_s, lift_off_under, overrun_at,
+    overrun_curve,
 };
 use crate::report::{Rows, Table, Unit};
 use crate::wedge::NoCurve;
@@ -63,7 +64,10 @@ impl Design {
             near.inner_race.into_iter().for_each(|point| insert(&mut course.inner_race, point));
         }
         let cage = CageSection::of(self, state);
-        Ok((OverrunSection::new(&course, named, self, cage), lift_off_rad_s))
+        let mut section = OverrunSection::new(&course, named, self, cage);
+        section.lift_off_more_drag_rpm =
+            rpm(lift_off_rad_s.and_then(|_| lift_off_under(self, state, MORE_DRAG, LIFT_OFF_TO_RAD_S)));
+        Ok((section, lift_off_rad_s))
     }
 }
 
@@ -298,6 +302,8 @@ pub struct OverrunSection {
     pub named: Vec<NamedOverrun>,
     /// All speeds looked at: first the outer race runs, then the inner one.
     pub points: Vec<OverrunRow>,
+    /// The speed of lift-off where the spring drags a tenth more, rev/min; null: no lift-off up to `lift_off_searched_to_rpm`.
+    pub lift_off_more_drag_rpm: Option<f64>,
     /// The limit of lift-off, rev/min.
     #[serde(skip)]
     pub(super) lift_off_by_rpm: Option<f64>,
@@ -310,6 +316,9 @@ pub struct OverrunSection {
     /// A note where that is so at other speeds only, on the way through them.
     pub passing: Option<String>,
 }
+
+/// How much more the spring drags where it is told what that does to lift-off: a choice, what drag scatters by.
+const MORE_DRAG: f64 = 1.1;
 
 /// Time in which a swing must grow tenfold for a speed that is only passed to be spoken of, s: a choice, no clutch passes more slowly.
 pub(in crate::answer) const PASSING_S: f64 = 1.0;
@@ -416,6 +425,7 @@ impl OverrunSection {
             },
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
+            lift_off_more_drag_rpm: None,
             lift_off_by_rpm: limits.lift_off_by_rad_s.map(|w| Unit::Rpm.from_si(w)),
             on_film,
             cage,

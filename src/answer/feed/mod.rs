@@ -56,6 +56,61 @@ impl Default for FeedSettings {
     }
 }
 
+impl FeedSettings {
+    /// The strokes that it asks of `design`, at the first frequency, or what makes no sense.
+    ///
+    /// # Errors
+    /// [`NoFeed::Refused`].
+    pub fn validate(&self, design: &Design) -> Result<Strokes, NoFeed> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        let races = &design.clutch.races;
+        let own = if self.inner_drives { races.outer_inertia_kg_m2 } else { races.inner_inertia_kg_m2 };
+        let list = &self.frequencies_hz;
+        let case = Strokes {
+            stroke_rad: self.stroke_rad,
+            frequency_hz: list.first().copied().unwrap_or(0.0),
+            brake_nm: self.brake_nm.or(design.limits.nominal_torque_nm).unwrap_or(0.0),
+            inertia_kg_m2: self.inertia_kg_m2.unwrap_or(own),
+            inner_drives: self.inner_drives,
+        };
+        let refused = |found: String, allowed: &'static str| Err(NoFeed::Refused { found, allowed });
+        if !positive(case.stroke_rad) || case.stroke_rad > TAU {
+            let found = format!("a stroke of {} deg", typed(Unit::Degree.from_si(case.stroke_rad)));
+            return refused(found, "above 0 and up to 360 deg");
+        } else if !positive(case.brake_nm) {
+            let found = format!("a brake of {} Nm", typed(case.brake_nm));
+            return refused(
+                found,
+                "above 0, given or as nominal_torque_nm in [limits]: without a brake nothing stops the fed race",
+            );
+        } else if !positive(case.inertia_kg_m2) {
+            return refused(format!("an inertia of {} kg m²", typed(case.inertia_kg_m2)), "above 0");
+        } else if !positive(self.allowed_rad) {
+            let found =
+                format!("an allowed difference of {} deg", typed(Unit::Degree.from_si(self.allowed_rad)));
+            return refused(found, "above 0");
+        } else if list.is_empty()
+            || !list.windows(2).all(|w| w[0] < w[1])
+            || !list.iter().all(|f| (1e-3..=1e4).contains(f))
+        {
+            let each: Vec<String> = list.iter().map(|hz| typed(*hz)).collect();
+            let found = if each.is_empty() {
+                "no frequency".to_owned()
+            } else {
+                format!("frequencies of {} Hz", each.join(", "))
+            };
+            return refused(found, "0.001 to 10000 Hz, each above the one before");
+        }
+        if let Some(factor) = self.springs.iter().find(|factor| !(1e-3..=1e3).contains(*factor)) {
+            return refused(
+                format!("a spring of {} times that of the file", typed(*factor)),
+                "0.001 to 1000 times",
+            );
+        }
+        Ok(case)
+    }
+}
+
 /// Strokes over frequency.
 #[derive(Debug, Clone)]
 pub struct FeedAnswer<'a> {
@@ -162,51 +217,8 @@ impl Design {
     /// # Errors
     /// [`NoFeed`].
     pub fn feed(&self, settings: &FeedSettings) -> Result<FeedAnswer<'_>, NoFeed> {
-        let positive = |x: f64| x.is_finite() && x > 0.0;
-        let races = &self.clutch.races;
-        let own = if settings.inner_drives { races.outer_inertia_kg_m2 } else { races.inner_inertia_kg_m2 };
+        let case = settings.validate(self)?;
         let list = &settings.frequencies_hz;
-        let case = Strokes {
-            stroke_rad: settings.stroke_rad,
-            frequency_hz: list.first().copied().unwrap_or(0.0),
-            brake_nm: settings.brake_nm.or(self.limits.nominal_torque_nm).unwrap_or(0.0),
-            inertia_kg_m2: settings.inertia_kg_m2.unwrap_or(own),
-            inner_drives: settings.inner_drives,
-        };
-        let refused = |found: String, allowed: &'static str| Err(NoFeed::Refused { found, allowed });
-        if !positive(case.stroke_rad) || case.stroke_rad > TAU {
-            let found = format!("a stroke of {} deg", typed(Unit::Degree.from_si(case.stroke_rad)));
-            return refused(found, "above 0 and up to 360 deg");
-        } else if !positive(case.brake_nm) {
-            let found = format!("a brake of {} Nm", typed(case.brake_nm));
-            return refused(
-                found,
-                "above 0, given or as nominal_torque_nm in [limits]: without a brake nothing stops the fed race",
-            );
-        } else if !positive(case.inertia_kg_m2) {
-            return refused(format!("an inertia of {} kg m²", typed(case.inertia_kg_m2)), "above 0");
-        } else if !positive(settings.allowed_rad) {
-            let found =
-                format!("an allowed difference of {} deg", typed(Unit::Degree.from_si(settings.allowed_rad)));
-            return refused(found, "above 0");
-        } else if list.is_empty()
-            || !list.windows(2).all(|w| w[0] < w[1])
-            || !list.iter().all(|f| (1e-3..=1e4).contains(f))
-        {
-            let each: Vec<String> = list.iter().map(|hz| typed(*hz)).collect();
-            let found = if each.is_empty() {
-                "no frequency".to_owned()
-            } else {
-                format!("frequencies of {} Hz", each.join(", "))
-            };
-            return refused(found, "0.001 to 10000 Hz, each above the one before");
-        }
-        if let Some(factor) = settings.springs.iter().find(|factor| !(1e-3..=1e3).contains(*factor)) {
-            return refused(
-                format!("a spring of {} times that of the file", typed(*factor)),
-                "0.001 to 1000 times",
-            );
-        }
         let state = load_state(self).ok();
         let windup = |state: &crate::margin::LoadState| {
             state

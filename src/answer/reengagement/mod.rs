@@ -60,6 +60,52 @@ impl Default for ReengagementSettings {
     }
 }
 
+impl ReengagementSettings {
+    /// The slip that it asks of `design`, its friction 0 where none is given, or what makes no sense.
+    ///
+    /// # Errors
+    /// [`NoReengagement::Refused`].
+    pub fn validate(&self, design: &Design) -> Result<SlipUnderLoad, NoReengagement> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        let races = &design.clutch.races;
+        let own = [races.inner_inertia_kg_m2, races.outer_inertia_kg_m2];
+        let running = running(design).filter(|_| self.speed_rad_s.is_none());
+        let case = SlipUnderLoad {
+            torque_nm: self.torque_nm.or(design.limits.nominal_torque_nm).unwrap_or(0.0),
+            speed_rad_s: self.speed_rad_s.or(running.map(|r| r.1)).unwrap_or(0.0),
+            inertia_kg_m2: [0, 1].map(|race| self.inertia_kg_m2[race].unwrap_or(own[race])),
+            outer_held: self
+                .outer_held
+                .unwrap_or_else(|| self.inertia_kg_m2[1].is_none() && !outer_turns(design)),
+            friction: self.friction.unwrap_or(0.0),
+            paths_m: self.paths_m.clone(),
+        };
+        let rising = case.paths_m.windows(2).all(|w| w[0] < w[1]);
+        if !positive(case.torque_nm) {
+            return Err(NoReengagement::Refused(
+                "a torque above 0, given or as nominal_torque_nm in [limits]",
+            ));
+        } else if !case.inertia_kg_m2.into_iter().all(positive) {
+            return Err(NoReengagement::Refused("inertias above 0"));
+        } else if case.outer_held && self.inertia_kg_m2[1].is_some() {
+            return Err(NoReengagement::Refused(
+                "an outer race that is held, or an inertia of it: one of both",
+            ));
+        } else if !(case.friction.is_finite() && case.friction >= 0.0) {
+            return Err(NoReengagement::Refused("a friction of 0 or more"));
+        } else if case.paths_m.is_empty() || !rising || !case.paths_m.iter().copied().all(positive) {
+            return Err(NoReengagement::Refused("paths of slip above 0, each longer than the one before"));
+        }
+        let over = [&self.over_friction, &self.over_inner_inertia_kg_m2];
+        if !over[0].iter().all(|mu| mu.is_finite() && *mu >= 0.0) || !over[1].iter().copied().all(positive) {
+            return Err(NoReengagement::Refused(
+                "frictions of 0 or more and inertias above 0 in the table over both",
+            ));
+        }
+        Ok(case)
+    }
+}
+
 /// Share of the friction that a torque needs which a slip has where nothing is said.
 pub const SHORT: f64 = 0.95;
 
@@ -178,42 +224,8 @@ impl Design {
         &self,
         settings: &ReengagementSettings,
     ) -> Result<ReengagementAnswer<'_>, NoReengagement> {
-        let positive = |x: f64| x.is_finite() && x > 0.0;
-        let races = &self.clutch.races;
-        let own = [races.inner_inertia_kg_m2, races.outer_inertia_kg_m2];
+        let mut case = settings.validate(self)?;
         let running = running(self).filter(|_| settings.speed_rad_s.is_none());
-        let mut case = SlipUnderLoad {
-            torque_nm: settings.torque_nm.or(self.limits.nominal_torque_nm).unwrap_or(0.0),
-            speed_rad_s: settings.speed_rad_s.or(running.map(|r| r.1)).unwrap_or(0.0),
-            inertia_kg_m2: [0, 1].map(|race| settings.inertia_kg_m2[race].unwrap_or(own[race])),
-            outer_held: settings
-                .outer_held
-                .unwrap_or_else(|| settings.inertia_kg_m2[1].is_none() && !outer_turns(self)),
-            friction: settings.friction.unwrap_or(0.0),
-            paths_m: settings.paths_m.clone(),
-        };
-        let rising = case.paths_m.windows(2).all(|w| w[0] < w[1]);
-        if !positive(case.torque_nm) {
-            return Err(NoReengagement::Refused(
-                "a torque above 0, given or as nominal_torque_nm in [limits]",
-            ));
-        } else if !case.inertia_kg_m2.into_iter().all(positive) {
-            return Err(NoReengagement::Refused("inertias above 0"));
-        } else if case.outer_held && settings.inertia_kg_m2[1].is_some() {
-            return Err(NoReengagement::Refused(
-                "an outer race that is held, or an inertia of it: one of both",
-            ));
-        } else if !(case.friction.is_finite() && case.friction >= 0.0) {
-            return Err(NoReengagement::Refused("a friction of 0 or more"));
-        } else if case.paths_m.is_empty() || !rising || !case.paths_m.iter().copied().all(positive) {
-            return Err(NoReengagement::Refused("paths of slip above 0, each longer than the one before"));
-        }
-        let over = [&settings.over_friction, &settings.over_inner_inertia_kg_m2];
-        if !over[0].iter().all(|mu| mu.is_finite() && *mu >= 0.0) || !over[1].iter().copied().all(positive) {
-            return Err(NoReengagement::Refused(
-                "frictions of 0 or more and inertias above 0 in the table over both",
-            ));
-        }
         let state = load_state(self).ok();
         if settings.friction.is_none() {
             let at_torque = state.as_ref().and_then(|state| state.curve.at_torque(case.torque_nm));
@@ -247,6 +259,7 @@ impl Design {
             answer.borne = answer.borne(&settings.follow).map_err(NoReengagement::NoStart)?;
             answer.borne_stopped = answer.borne.is_none() && settings.follow.stopped();
         }
+        let over = [&settings.over_friction, &settings.over_inner_inertia_kg_m2];
         if over.iter().any(|list| !list.is_empty()) {
             answer.table_over(over, &settings.follow).map_err(NoReengagement::NoStart)?;
         }

@@ -100,7 +100,10 @@ impl SearchSettings {
     /// [`NoSearch::Asked`] with what is allowed.
     pub fn validate(&self, design: &Design) -> Result<(), NoSearch> {
         let twice = self.front.iter().enumerate().any(|(i, aim)| self.front[..i].contains(aim));
-        let fault = if !self.front.is_empty() && (twice || !(2..=3).contains(&self.front.len())) {
+        let scenes = design.optimize.as_ref().is_none_or(|task| !task.scenarios.is_empty());
+        let fault = if !scenes && self.front.iter().any(|aim| aim.of_scenes()) {
+            "a front over a margin of scenarios needs scenarios in [optimize]"
+        } else if !self.front.is_empty() && (twice || !(2..=3).contains(&self.front.len())) {
             "a front needs two or three different objectives"
         } else if !self.front.is_empty() && self.front_steps < 2 {
             "a front needs at least two steps between its ends"

@@ -45,8 +45,7 @@ impl Default for Hints {
 
 /// A value of an objective; `None` where a scene has no such margin, which the search counts as [`Left::Lost`].
 pub(super) fn known(aim: Objective, value: f64) -> Option<f64> {
-    let of_scenes = matches!(aim, Objective::SlipMargin | Objective::ContactMargin);
-    (!of_scenes || value > Left::Lost.number()).then_some(value)
+    (!aim.of_scenes() || value > Left::Lost.number()).then_some(value)
 }
 
 /// A value of an objective with its unit.
@@ -278,8 +277,7 @@ impl Story {
         lines.extend(self.linked());
         let felt = |slopes: &Vec<f64>| slopes.iter().any(|s| s.abs() >= NO_INFLUENCE);
         // Margins of scenes are level where no friction suffices.
-        let of_scenes = matches!(self.found.aim, Objective::SlipMargin | Objective::ContactMargin);
-        if !of_scenes && !self.found.influence.objectives.iter().any(felt) {
+        if !self.found.aim.of_scenes() && !self.found.influence.objectives.iter().any(felt) {
             lines.push(format!(
                 "No variable changes the {} at the start: if that is no accident, name one that does, or let one take further \
                  numbers along (its keys moves and scales).",

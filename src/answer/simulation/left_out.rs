@@ -18,7 +18,8 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
     let kind = &scene.scenario.kind;
     if !kind.is_at_rest() {
         let (term, why) = film(scene);
-        add(term, why, &film_squeezed(scene).unwrap_or_else(|| "not estimated".to_owned()));
+        let cost = film_squeezed(scene).or_else(|| nothing_slides(scene));
+        add(term, why, &cost.unwrap_or_else(|| "not estimated".to_owned()));
         if scene.design.clutch.cage.is_none() {
             add(
                 "mass and friction of the cage",
@@ -47,7 +48,7 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
     add(
         "torsional waves and bending of races and shafts",
         "the races are rigid in rotation, their growth is quasi-static",
-        "not estimated",
+        &bending(scene).unwrap_or_else(|| "not estimated".to_owned()),
     );
     if !matches!(scene.design.clutch.contact, ContactLaw::Slice { .. }) {
         add(
@@ -81,7 +82,11 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
         &growth(scene, neglected.outer_rate_rad_s, speed),
     );
     if speed != 0.0 {
-        add("growth of the inner race by rotation", "(7) is the outer race's alone", "not estimated");
+        add(
+            "growth of the inner race by rotation",
+            "(7) is the outer race's alone",
+            &inner_growth(scene, speed),
+        );
     }
     list
 }
@@ -102,6 +107,39 @@ fn film(scene: &Ran) -> (&'static str, &'static str) {
             ("lubricant film and temperature", "friction is the law (12) of the sliding speed alone")
         }
     }
+}
+
+/// What a film would do where both contacts have stuck since they carry.
+fn nothing_slides(scene: &Ran) -> Option<String> {
+    let s = scene.simulation().filter(|s| s.overrun.is_none())?;
+    let slides = [s.inner, s.outer].iter().any(|contact| contact.distance_m > 0.0);
+    (!slides).then(|| "none: no contact slides in this scene".to_owned())
+}
+
+/// What bending adds to the growth of the races where the scene repeats, two waves around, the lowest; `None` elsewhere.
+fn bending(scene: &Ran) -> Option<String> {
+    let (prepared, _) = scene.outcome.as_ref().ok()?;
+    let elastic = &prepared.model.curve.statics().elastic;
+    let scene_hz = prepared.period_s?.recip();
+    let lowest = [&elastic.inner_race, &elastic.outer_race].map(|race| race.lowest_mode_hz());
+    let lowest = lowest.into_iter().filter(|hz| *hz > 0.0).reduce(f64::min)?;
+    Some(format!(
+        "bending: {} of the races' growth (the softer race alone bends at {}, the torque swings at {}); torsion of shafts: not estimated",
+        Unit::Percent.show((scene_hz / lowest).powi(2), 1),
+        Unit::Hertz.show(lowest, 3),
+        Unit::Hertz.show(scene_hz, 3)
+    ))
+}
+
+/// Growth of the inner track at the mean `speed`, rad/s, beside that of the outer one.
+fn inner_growth(scene: &Ran, speed: f64) -> String {
+    let Ok((prepared, _)) = &scene.outcome else { return "not estimated".to_owned() };
+    let elastic = &prepared.model.curve.statics().elastic;
+    format!(
+        "inner track larger by {}, as a ring of its own, where the outer one is by {}",
+        Unit::Micrometre.show(elastic.inner_race.centrifugal_outside_growth_m(speed), 2),
+        Unit::Micrometre.show(elastic.outer_race.centrifugal_bore_growth_m(speed), 2)
+    )
 }
 
 /// How long a film that is there when a scene begins in overrun keeps the contact from gripping; `None` without either.
