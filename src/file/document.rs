@@ -171,8 +171,9 @@ fn syntax_problem(source: &str, error: &toml::de::Error) -> Problem {
     };
     let help = if what.contains("duplicate") {
         "keep one of the two: a key may stand only once in a table".to_owned()
-    } else if has_decimal_comma(source.lines().nth(place.line.saturating_sub(1)).unwrap_or("")) {
-        "write the number with a point: 135.5, not 135,5".to_owned()
+    } else if let Some(comma) = decimal_comma(source.lines().nth(place.line.saturating_sub(1)).unwrap_or(""))
+    {
+        format!("write the number with a point: {}, not {comma}", comma.replace(',', "."))
     } else if is_left_open(error) {
         format!(
             "close what is open before line {}, column {}: a }} for each {{, a ] for each [",
@@ -194,12 +195,12 @@ fn syntax_problem(source: &str, error: &toml::de::Error) -> Problem {
     }
 }
 
-/// Whether a line gives a key a number with a comma between its digits.
-fn has_decimal_comma(line: &str) -> bool {
-    let Some((_, value)) = line.split_once('=') else { return false };
+/// The number that a line gives a key with a comma between its digits.
+fn decimal_comma(line: &str) -> Option<&str> {
+    let (_, value) = line.split_once('=')?;
     let value = value.split('#').next().unwrap_or(value).trim();
     let digits = |s: &str| !s.is_empty() && s.chars().all(|c| c.is_ascii_digit());
-    value.split_once(',').is_some_and(|(a, b)| digits(a.trim_start_matches('-')) && digits(b))
+    value.split_once(',').filter(|(a, b)| digits(a.trim_start_matches('-')) && digits(b)).map(|_| value)
 }
 
 /// The key that a reader sees at `at`, read from the text because there is no tree: last header, then what

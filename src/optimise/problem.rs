@@ -166,11 +166,12 @@ impl ClutchProblem {
         }
     }
 
-    /// The task of `design` as other optimisers are given it: all variables free, quickly unless `full`.
+    /// The task of `design` as other optimisers are given it: all variables free, each limit held as `check` does, without a reserve, quickly
+    /// unless `full`.
     pub fn of_task(design: &Design, task: &Optimize, full: bool) -> Self {
         let variables = task.variables.iter().map(|v| v.name.clone()).collect();
         let fidelity = Fidelity { reduced: !full, ..Fidelity::default() };
-        Self::new(design, task, variables, fidelity).quickly()
+        Self { reserve: 0.0, ..Self::new(design, task, variables, fidelity).quickly() }
     }
 
     /// The same problem with everything that `check` demands as a limit: the wanted slip margin even where slip is what is

@@ -148,7 +148,7 @@ class Design:
 
         Raises ``FileExistsError``.
         """
-        write(path, self.text, force=force)
+        write(path, self.text, force=force, design=True)
 
     def check(self) -> Check:
         """Hold the design against each of its limits.

@@ -7,12 +7,15 @@ import uuid
 from pathlib import Path
 
 
-def write(path: str | os.PathLike[str], content: str | bytes, *, force: bool) -> Path:
-    """Write a file. One that is there is replaced only with ``force``, at once and whole; where the disk is full nothing is left.
+def write(path: str | os.PathLike[str], content: str | bytes, *, force: bool, design: bool = False) -> Path:
+    """Write a file. One that is there is replaced only with ``force``, at once and whole; where the disk is full nothing is left. A design
+    file that is there is replaced by a ``design`` alone.
 
     Raises ``FileExistsError``.
     """
     target = Path(path)
+    if not design and target.suffix.lower() == ".toml" and target.exists():
+        raise FileExistsError(f"{target} is there already, a design file by its name: nothing else replaces it, force=True neither")
     data = content.encode("utf-8") if isinstance(content, str) else content
     if not force:
         _fill(target, data)

@@ -35,7 +35,7 @@ use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, scene_demand, scene_rows,
     static_margins_until,
 };
-use crate::report::{Page, Screen, Table};
+use crate::report::{Page, Screen, Table, Unit};
 use crate::scenario::Settings;
 use crate::wedge::straddling_error;
 use body::Source;
@@ -180,6 +180,28 @@ pub enum NoCheck {
     Stopped,
 }
 
+/// Opening that a gap limit leaves, by the gap at rest, from which on it is asked about: `new` leaves 1.5 and 3 %.
+const WIDE_OPENING: f64 = 0.04;
+
+/// Notes on limits of the race gap that leave it more to open than any clutch needs: they are of the whole gap, and stay as they are where
+/// a race is changed.
+fn wide_gaps(design: &Design) -> Vec<String> {
+    let races = &design.clutch.races;
+    let rest_m = races.outer_radius_m - races.inner_radius_m;
+    let limits = [("gap_nominal_mm", design.limits.gap_nominal_m), ("gap_peak_mm", design.limits.gap_peak_m)];
+    let wide = limits.into_iter().filter_map(|(key, gap)| Some((key, gap? / rest_m - 1.0)));
+    wide.filter(|(_, share)| *share > WIDE_OPENING)
+        .map(|(key, share)| {
+            format!(
+                "Note: {key} lets the gap of {} between the tracks open by {}, which bears on nothing: it is the whole gap under load, so where \
+                 a race was changed, move it by as much",
+                Unit::Millimetre.show(rest_m, 4),
+                Unit::Percent.show(share, 2)
+            )
+        })
+        .collect()
+}
+
 impl Design {
     /// Hold the design against each of its limits, all scenarios side by side: rows, verdict, torque capacities, overrun. `follow` is told
     /// of every scenario that is done.
@@ -223,7 +245,7 @@ impl Design {
             end_torque_nm: state.curve.end_torque_nm(),
             asked_nm: limits.largest_torque_nm().unwrap_or(0.0),
             lift_off_rad_s,
-            materials: beside_the_name(&self.source),
+            materials: beside_the_name(&self.source).into_iter().chain(wide_gaps(self)).collect(),
             searched_to_rad_s: LIFT_OFF_TO_RAD_S,
             overrun,
             at_speed: AtSpeedSection::new(self, &state, &rows),
