@@ -103,6 +103,7 @@ const TYPICAL: &[(&str, &str)] = &[
     ("youngs_modulus_gpa", "200 … 212, steel; 310, silicon nitride"),
     ("optimize.reserve", "0 … 0.1"),
     ("optimize.step_mm", "0.005"),
+    ("torque_random.seed", "1"),
     ("press_fit.inner_interference_um", "10 … 60"),
     ("press_fit.shaft_bore_radius_mm", "0, solid"),
     ("scenarios[].torque_nm", "the nominal torque"),

@@ -27,12 +27,21 @@ def main(path: str, quick: bool) -> None:
             known[x.tobytes()] = problem.evaluate(x)
         return known[x.tobytes()]
 
+    last: list[tuple[np.ndarray, np.ndarray]] = []
+
     def rows(v: np.ndarray) -> np.ndarray:
         """Objectives above t, and limits, all 0 or more."""
         e = at(v[:-1])
-        if e.refused is not None:
+        if e.refused is None:
+            margins: np.ndarray = np.concatenate([np.array(e.objectives) - v[-1], e.limits])
+            last[:] = [(v, margins)]
+            return margins
+        if not last:
             return np.full(len(problem.objectives) + len(problem.limits), -1.0)
-        return np.concatenate([np.array(e.objectives) - v[-1], e.limits])
+        # No clutch there: the farther from the last one, the worse, so that a line search turns back.
+        there, held = last[0]
+        worse: np.ndarray = np.minimum(held, 0.0) - float(np.linalg.norm(v - there))
+        return worse
 
     begin = (np.array(problem.start) - low) / (high - low)
     start = at(begin)

@@ -143,6 +143,12 @@ def test_the_sheet_is_that_of_the_command(design: sd.Design, command: Command, t
     assert "<iframe" in sheet._repr_html_() and "Design sheet" in repr(sheet)
     with pytest.raises(FileExistsError):
         sheet.save(own)
+    copy = tmp_path / "copy.toml"
+    design.save(copy)
+    for write in (sheet.save, lambda path, force: design.export(path, format="dxf", force=force)):
+        with pytest.raises(FileExistsError, match="a design file by its name"):
+            write(copy, force=True)
+    assert copy.read_text() == design.text
     sheet.save(own, force=True)
     assert [p.name for p in tmp_path.iterdir() if p.suffix == ".tmp"] == []
 

@@ -430,6 +430,7 @@ fn overrun_is_that_of_the_speeds_that_the_design_names() {
     let said = |file: &str| stdout(&run(&["check", file, "--quiet"]));
     let named = said("designs/starter.toml");
     assert!(named.contains("Sprags lift off the inner race at 848 rpm of the outer race"), "{named}");
+    assert!(named.contains("with a tenth more drag of the spring at 889 rpm; keep above it"), "{named}");
     assert!(named.contains("250 rpm of the outer race (keep_contact_to_rpm)"), "{named}");
     assert!(
         named.contains("none (the sprags are off) at 900 rpm of the outer race (lift_off_by_rpm)"),
@@ -576,4 +577,15 @@ fn several_files_are_answered_one_after_another() {
     let none = run(&["simulate", files[0]]);
     let said = String::from_utf8_lossy(&none.stderr).into_owned();
     assert!(none.status.code() == Some(2) && said.contains("high-10"), "{said}");
+}
+
+/// A gap limit is of the whole gap: where a race is changed and it is not, it bears on nothing.
+#[test]
+fn a_gap_limit_that_leaves_all_open_is_asked_about() {
+    let said =
+        |mm: &str| stdout(&run(&["check", MULTI, "--set", &format!("limits.gap_peak_mm={mm}"), "--quiet"]));
+    assert!(
+        said("9").contains("Note: gap_peak_mm lets the gap of 8.330 mm between the tracks open by 8.0 %")
+    );
+    assert!(!said("8.55").contains("gap_peak_mm lets"));
 }

@@ -121,3 +121,49 @@ fn a_reserve_is_kept_of_every_limit() {
     assert_eq!(refused.status.code(), Some(2));
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// What other optimisers are told is what `check` holds: the reserve is the own search's.
+#[test]
+fn a_reserve_is_none_of_evaluate() {
+    let told = |reserve: &str| {
+        let folder = folder(&format!("evaluate-{reserve}"));
+        let points = folder.join("points.csv");
+        std::fs::write(&points, "r_i2_mm,r_i3_mm,centroid_x_mm,centroid_y_mm\n4.2,4.4,0.15,0.5\n").unwrap();
+        let set = format!("optimize.reserve={reserve}");
+        let out =
+            tool(&["evaluate", DESIGN, "--vectors", points.to_str().unwrap(), "--quiet", "--set", &set]);
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+        let text = String::from_utf8(out.stdout).unwrap();
+        text.lines().last().unwrap().to_owned()
+    };
+    assert_eq!(told("0.0"), told("0.1"));
+}
+
+#[test]
+fn an_objective_of_the_clutch_alone_needs_no_scenario() {
+    let folder = folder("no-scenario");
+    let new = folder.join("new.toml");
+    let none =
+        ["--set", "optimize.scenarios=[]", "-o", new.to_str().unwrap(), "--json", "--quiet", "--starts", "1"];
+    let out = tool(&[&["optimize", DESIGN, "--set", "optimize.objective=peak-pressure"], &none[..]].concat());
+    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    assert_eq!(json(&out)["feasible"], true);
+    let out = tool(&[&["optimize", DESIGN], &none[..]].concat());
+    assert_eq!(out.status.code(), Some(2));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_natural_frequency_between_those_looked_at_is_warned_of() {
+    let said = |points: &str| {
+        let asked = ["--frequency", "50:150", "--amplitude", "2", "--points", points, "--quiet"];
+        let out = tool(&[&["resonance", DESIGN, "--scenario", "high-6"], &asked[..]].concat());
+        String::from_utf8(out.stdout).unwrap()
+    };
+    assert!(
+        said("2")
+            .contains("Warning: the clutch swings freely at 86.69 Hz, between the frequencies looked at")
+    );
+    assert!(!said("12").contains("between the frequencies"));
+}
