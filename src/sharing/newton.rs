@@ -14,6 +14,11 @@ const BALANCED: f64 = 1e-12;
 /// The same where rounding lets it come no nearer.
 const NEARLY: f64 = 1e-9;
 
+/// Parts of a torque from which it is approached.
+const APPROACH: [f64; 3] = [0.6, 0.3, 0.1];
+/// Step of that at which it ends, as a part of the torque.
+const NARROW: f64 = 1e-3;
+
 /// What is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Asked {
@@ -106,7 +111,45 @@ impl Unlike<'_> {
         }
         let (x, scales) = self.guess(asked, first)?;
         let case = BalanceCase { asked, turned_rad, scales, stiffness_n_per_m: self.stiffness_n_per_m };
-        self.balanced(x, case).map_err(|why| self.reason(why, asked))
+        let found = match (self.balanced(&x, case), asked) {
+            (Err(NotShared::NoBalance), Asked::Torque(wanted)) => self.approached(wanted, first, case),
+            (found, _) => found.map(|(_, found)| found),
+        };
+        found.and_then(|found| self.finished(found)).map_err(|why| self.reason(why, asked))
+    }
+
+    /// The same where no balance was found at once: from a part of the torque on, each balance the start of the next; how far that leads
+    /// says which sprag comes to its end.
+    fn approached(&self, wanted: f64, first: f64, case: BalanceCase) -> Result<Shared, NotShared> {
+        let begin = APPROACH.iter().find_map(|part| {
+            let (x, scales) = self.guess(Asked::Torque(part * wanted), first).ok()?;
+            let case = BalanceCase { asked: Asked::Torque(part * wanted), scales, ..case };
+            let (x, found) = self.balanced(&x, case).ok()?;
+            Some((*part, x, scales, found))
+        });
+        let (mut part, mut x, scales, mut found) = begin.ok_or(NotShared::NoBalance)?;
+        let (mut step, mut why) = (0.5 * (1.0 - part), NotShared::NoBalance);
+        while part < 1.0 && step > NARROW {
+            let next = (part + step).min(1.0);
+            let asked = Asked::Torque(next * wanted);
+            match self.balanced(&x, BalanceCase { asked, scales, ..case }) {
+                Ok(there) => (part, (x, found)) = (next, there),
+                Err(not) => {
+                    why = not;
+                    step *= 0.5;
+                }
+            }
+        }
+        if part == 1.0 {
+            return Ok(found);
+        }
+        let (worst, own_rad) = found.worst(|l| l.own_rad);
+        match why {
+            NotShared::NoBalance if own_rad > 0.9 * self.curve.end_windup_rad() => {
+                Err(NotShared::End(worst, self.curve.end().0))
+            }
+            why => Err(why),
+        }
     }
 
     /// What lies behind a torque that is not carried.
@@ -129,19 +172,19 @@ impl Unlike<'_> {
         at.iter().zip(next).any(|(from, to)| to - from > PI)
     }
 
-    fn balanced(&self, x: DVector<f64>, case: BalanceCase) -> Result<Shared, NotShared> {
+    fn balanced(&self, x: &DVector<f64>, case: BalanceCase) -> Result<(DVector<f64>, Shared), NotShared> {
         let scales = case.scales;
-        let direct = self.solved(&x, case);
+        let direct = self.solved(x, case);
         if direct.is_ok() || self.stiffness_n_per_m.is_infinite() {
-            return direct.and_then(|(_, found)| self.finished(found));
+            return direct;
         }
         // A race that floats comes to rest far from where it was held: it is let go by and by.
-        let mut x = x;
+        let mut x = x.clone();
         let stiff = scales.normal_n / scales.shift_m;
         for part in (-2..=8).map(|k| 0.1_f64.powi(k) * stiff).filter(|k| *k > self.stiffness_n_per_m) {
             x = self.solved(&x, BalanceCase { stiffness_n_per_m: part, ..case }).or(direct.clone())?.0;
         }
-        self.solved(&x, case).or(direct).and_then(|(_, found)| self.finished(found))
+        self.solved(&x, case).or(direct)
     }
 
     /// Newton's method from `x`.

@@ -48,6 +48,7 @@ const MAY_BE_NULL: &[&str] = &[
     "k_secant_nm_per_rad",
     "k_tangent_nm_per_rad",
     "largest_share_coupled",
+    "lift_off_more_drag_rpm",
     "lift_off_rpm",
     "lowest_torque_capacity",
     "net_mm",

@@ -536,3 +536,15 @@ fn the_words_of_losses_are_those_of_their_table() {
         "{verdict}"
     );
 }
+
+/// A balance that Newton's method does not find at once is approached from smaller torques: that a sprag ends first is told as that.
+#[test]
+fn a_loss_after_which_a_sprag_ends_is_not_called_unknown() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/lift-off-inner.toml");
+    let table = [("sharing".to_owned(), "{ seed = 1, size_within_um = 3 }".to_owned())];
+    let design = Design::read(path.as_ref()).unwrap().with(&table, "lift-off-inner.toml").unwrap();
+    let answer = design.sharing(Some(300.0)).unwrap();
+    let last = answer.losses.last().unwrap();
+    assert!(matches!(last.left, Err(NotShared::End(_, EndReason::OffProfile))), "{last:?}");
+    assert_eq!(answer.may_be_lost(), Some(answer.losses.len() - 1));
+}

@@ -277,6 +277,9 @@ class Overrun:
     ``None`` where it does. A note where only a limit names that speed and the swing takes longer than 1 s to grow tenfold."""
     passing: str | None
     """A note where that is so at other speeds only, on the way through them."""
+    lift_off_more_drag_rpm: float | None
+    """The speed of lift-off where the spring drags a tenth more, rev/min; ``None``: no lift-off up to
+    ``lift_off_searched_to_rpm``."""
 
 
 @dataclass(frozen=True, repr=False)
