@@ -54,15 +54,10 @@ impl OverrunSection {
             _ => "",
         };
         let more = self.lift_off_more_drag_rpm.filter(|_| lift_off_rpm.is_some_and(|rpm| rpm > 0.0));
-        let more = more
-            .map_or(String::new(), |rpm| format!("; with a tenth more drag of the spring at {rpm:.0} rpm"));
-        let keep = match self.lift_off_by_rpm {
-            Some(_) => "; keep above it in long overrun, for below it they rub",
-            None => "",
-        };
+        let more = more.map_or(String::new(), |rpm| format!(" ({rpm:.0} with 10 % more drag)"));
         match (self.outer_race_turns, lift_off_rpm) {
             (true, Some(rpm)) => {
-                format!("Sprags lift off the inner race at {rpm:.0} rpm of the outer race{why}{more}{keep}")
+                format!("Sprags lift off the inner race at {rpm:.0} rpm of the outer race{more}{why}")
             }
             (true, None) => format!("Sprags keep contact in overrun up to {searched_to_rpm:.0} rpm at least"),
             (false, Some(rpm)) => format!(
