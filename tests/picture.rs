@@ -153,7 +153,8 @@ fn section(path: &str, table: &serde_json::Value, designs: &[toml::Value], page:
     let heading = match path.strip_suffix("[]") {
         Some(array) => format!("`[[{array}]]`"),
         None if path.is_empty() => "At the top".to_owned(),
-        None => format!("`[{path}]`"),
+        // Within a row of an array.
+        None => format!("`[{}]`", path.replace("[]", "")),
     };
     *page += &format!("\n## {heading}\n\n{}\n", text(table));
     let needed = |name: &str| table["required"].as_array().is_some_and(|r| r.iter().any(|k| k == name));

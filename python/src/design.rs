@@ -63,6 +63,12 @@ impl Design {
             Err(why) => Err(errors::refused(py, &why)),
         }
     }
+
+    /// The design of a text that stands in this one's place.
+    pub(crate) fn in_place(&self, py: Python<'_>, text: &str) -> PyResult<Self> {
+        let read = sprag_design::Design::parse_in(&self.design.folder, text, &self.file);
+        Self::of(py, read, self.file.clone())
+    }
 }
 
 #[pymethods]

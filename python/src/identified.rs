@@ -12,8 +12,8 @@ use sprag_design::identify::{FitSettings, NoFit, Unknown, identify as fit, obser
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What was found as common keys and figures, each as JSON, its verdict, the text of the new design, and whether Ctrl-C ended it.
-type Identified = (String, String, String, String, bool);
+/// What was found as common keys and figures, each as JSON, its verdict, the new design, and whether Ctrl-C ended it.
+type Identified = (String, String, String, Design, bool);
 
 /// Fit `unknowns`, each a name between two bounds, to a table of CSV; `named`: what stands for it in messages; `by`: who asked.
 #[pyfunction]
@@ -29,7 +29,7 @@ pub fn identify(
     evaluations: usize,
     by: String,
 ) -> PyResult<Identified> {
-    let refused = |why: String| PyValueError::new_err(why);
+    let refused = PyValueError::new_err::<String>;
     let data = observations(table).map_err(|fault| refused(format!("{named}: {fault}")))?;
     let unknowns: Result<Vec<Unknown>, _> =
         unknowns.into_iter().map(|(name, min, max)| Unknown::between(name, min, max)).collect();
@@ -60,7 +60,8 @@ pub fn identify(
         (Err(why @ NoFit::Nowhere { .. }), _) => Err(errors::no_clutch(py, &why)),
         (Err(why), _) => Err(refused(why.to_string())),
         (Ok((common, body, verdict, source)), why) => {
-            Ok((common, body, verdict, source, interrupted(py, why)?))
+            let interrupted = interrupted(py, why)?;
+            Ok((common, body, verdict, design.get().in_place(py, &source)?, interrupted))
         }
     }
 }

@@ -162,10 +162,7 @@ fn designs(
     found: &SearchAnswer,
     by: &str,
 ) -> PyResult<(Design, Option<Design>)> {
-    let own = |text: &str| {
-        let read = sprag_design::Design::parse_in(&asked.design.folder, text, &asked.file);
-        Design::of(py, read, asked.file.clone())
-    };
+    let own = |text: &str| asked.in_place(py, text);
     let files = found.files(&asked.design, by);
     let written = |middle: Option<&str>| {
         let file = files.iter().find(|file| file.middle == middle);

@@ -231,7 +231,7 @@ def test_what_is_identified_is_that_of_the_command(design: sd.Design, command: C
     rest = [line for line in found.design.text.splitlines() if not line.startswith("# by")]
     assert rest == [line for line in new.read_text().splitlines() if not line.startswith("# by")]
     assert found.design.get("sprags.inner_arcs[1].radius_mm") == found.unknowns[0].value
-    for data in (table, str(table), pandas.read_csv(table)):
+    for data in (table, str(table), pandas.read_csv(table), pandas.read_csv(table).convert_dtypes()):
         assert mine(design.identify(data, UNKNOWN).to_dict()) == mine(found.to_dict())
     assert found.to_pandas().line.tolist() == [2, 3, 4, 5] and pickle.loads(pickle.dumps(found)).verdict == found.verdict
     for data, unknowns, word in [

@@ -111,7 +111,7 @@ const GAP: Limit = Limit {
                   leaves of it above the gap at rest. Thicker races or a larger wedge angle lower it.",
     formula: "N_A c_i + N_B c_e, c = n_s/(2 pi w E) ((R_o^2 + R_b^2)/(R_o^2 - R_b^2) + nu outside, - nu inside)",
     source: "Huang 2017, (5); Lame",
-    of: Of::clutch(|d, l| opening(l.gap_nominal_m, d), gap_opening_m),
+    of: Of::clutch(|d, l| allowed_opening_m(l.gap_nominal_m, d), gap_opening_m),
     ..PRESSURE
 };
 
@@ -312,7 +312,7 @@ pub static LIMITS: &[&Limit] = &[
         key: Some("gap_peak_mm"),
         name: |_| "opening of the race gap, peak torque",
         when: When::Peak,
-        of: Of::clutch(|d, l| opening(l.gap_peak_m, d), gap_opening_m),
+        of: Of::clutch(|d, l| allowed_opening_m(l.gap_peak_m, d), gap_opening_m),
         ..GAP
     },
     &Limit {
@@ -559,7 +559,7 @@ pub static LIMITS: &[&Limit] = &[
 ];
 
 /// What an allowed gap leaves above the gap at rest, m.
-fn opening(gap_m: Option<f64>, design: &Design) -> Option<f64> {
+pub fn allowed_opening_m(gap_m: Option<f64>, design: &Design) -> Option<f64> {
     let r = &design.clutch.races;
     gap_m.map(|gap| gap - (r.outer_radius_m - r.inner_radius_m))
 }

@@ -1099,10 +1099,10 @@ def front_of(optimum: Optimum, aims: typing.Sequence[str]) -> Front:
 # ---- life, overrun, reengage
 
 
-def plain_of(kind: type[T], found: tuple[str, str]) -> T:
-    """An answer whose JSON has its attributes and no more."""
+def plain_of(kind: type[T], found: tuple[str, str], **more: Any) -> T:
+    """An answer whose JSON has its attributes but for ``more``."""
     shared, data = _common(*found)
-    return _object(kind, data, **shared)
+    return _object(kind, data, **more, **shared)
 
 
 @dataclass(frozen=True)

@@ -147,7 +147,7 @@ def identify(
     seed: int,
     evaluations: int,
     by: str,
-) -> tuple[str, str, str, str, bool]: ...
+) -> tuple[str, str, str, Design, bool]: ...
 def resonance(
     design: Design,
     scenario: str | None,

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import csv
 import io
-import math
+import numbers
 import os
-import typing
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._answers import _columns, _Common, _common, _object
+from ._answers import _columns, _Common, plain_of
 from ._arguments import called, one, whole
 from ._errors import Interrupted
 
@@ -124,10 +123,8 @@ def identify(design: Design, data: Any, unknowns: Mapping[str, Any], starts: flo
     limits = whole("starts", starts, 1, 1000), whole("seed", seed, 0), whole("evaluations", evaluations, 1, 1_000_000)
     usual = {"starts": (limits[0], 4), "seed": (limits[1], 1), "evaluations": (limits[2], 200)}
     by = called("design.identify", named, {name: (low, high) for name, low, high in bounds}, **usual)
-    common, body, verdict, source, interrupted = _core.identify(design._core, table, named, bounds, *limits, by)
-    shared, figures = _common(common, body)
-    made = type(design).parse(source, folder=design._core.folder, file=design._core.file)
-    found = _object(Identification, figures, design=made, verdict=verdict, **shared)
+    common, body, verdict, made, interrupted = _core.identify(design._core, table, named, bounds, *limits, by)
+    found = plain_of(Identification, (common, body), design=type(design)(made), verdict=verdict)
     if interrupted:
         raise Interrupted(found)
     return found
@@ -152,12 +149,13 @@ def _table(data: Any) -> tuple[str, str]:
 
 
 def _column(name: str, values: Any) -> list[str]:
-    """The cells of a column; what is no number says nothing."""
+    """The cells of a column; what is not known says nothing."""
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
         raise TypeError(f"data: {name}: {values!r}: allowed: values in a row")
-    return ["" if value is None or value != value else _cell(value) for value in values]
+    return [_cell(value) for value in values]
 
 
 def _cell(value: Any) -> str:
-    number = typing.cast(float, value) if isinstance(value, (int, float)) else None
-    return str(value) if number is None or isinstance(value, bool) or math.isinf(number) else repr(float(number))
+    """A text, or a number to its last digit; nothing for ``None``, NaN and what pandas has for them."""
+    text = repr(float(value)) if isinstance(value, numbers.Real) else str(value)
+    return "" if text in ("None", "nan", "<NA>") else text

@@ -145,8 +145,8 @@ pub(super) struct Source {
     pub(super) lift_off_rad_s: Option<f64>,
     /// How far a lift-off was looked for, rad/s.
     pub(super) searched_to_rad_s: f64,
-    /// What the names of the materials do not decide.
-    pub(super) materials: Vec<String>,
+    /// What the file says that is to be asked about: what the names of its materials do not decide, limits that bear on nothing.
+    pub(super) of_file: Vec<String>,
     /// Overrun against speed.
     pub(super) overrun: OverrunSection,
     /// What the rows without a scene leave out.
@@ -179,7 +179,7 @@ pub struct CheckBody {
     #[serde(skip)]
     asked_at_nominal: bool,
     #[serde(skip)]
-    materials: Vec<String>,
+    of_file: Vec<String>,
     /// Speed of the outer race at which the sprags lift off the inner one, rev/min, in a driven cage of the inner race at which they lift off
     /// the outer one; null: contact is kept up to `lift_off_searched_to_rpm`.
     pub lift_off_rpm: Option<f64>,
@@ -217,7 +217,7 @@ impl CheckBody {
             end: CurveEnd { reason: source.end.name(), torque_nm: source.end_torque_nm, beyond: None },
             asked_nm: source.asked_nm,
             asked_at_nominal: Capacity::asked_at_nominal(rows),
-            materials: source.materials,
+            of_file: source.of_file,
             lift_off_rpm: source.lift_off_rad_s.map(rpm),
             lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
             overrun: source.overrun,
@@ -332,7 +332,7 @@ impl CheckBody {
         capacities.into_iter().filter_map(line).collect()
     }
 
-    /// An early end of the curve, lift-off, radii as run, races off centre, materials, a line each.
+    /// An early end of the curve, lift-off, radii as run, races off centre, what the file is to be asked about, a line each.
     pub fn other_remarks(&self) -> Vec<String> {
         let early = (self.end.torque_nm < self.asked_nm).then(|| {
             format!(
@@ -351,7 +351,6 @@ impl CheckBody {
         let lift_off = self.overrun.lift_off_remark(self.lift_off_rpm, self.lift_off_searched_to_rpm);
         let beyond = self.overrun.beyond_lift_off(self.lift_off_rpm);
         let overrun = [lift_off].into_iter().chain(beyond).chain(self.overrun.remarks());
-        let materials = self.materials.iter().cloned();
         let at_speed = self.at_speed.iter().filter_map(at_speed::AtSpeedSection::warning);
         let all = early
             .into_iter()
@@ -360,7 +359,7 @@ impl CheckBody {
             .chain(overrun)
             .chain(running)
             .chain(run_out)
-            .chain(materials);
+            .chain(self.of_file.iter().cloned());
         all.map(|line| greek(&line)).collect()
     }
 }

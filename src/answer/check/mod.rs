@@ -32,8 +32,8 @@ use crate::design::Design;
 use crate::file::beside_the_name;
 use crate::follow::{Follow, News};
 use crate::margin::{
-    Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, scene_demand, scene_rows,
-    static_margins_until,
+    Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, allowed_opening_m,
+    scene_demand, scene_rows, static_margins_until,
 };
 use crate::report::{Page, Screen, Table, Unit};
 use crate::scenario::Settings;
@@ -189,7 +189,8 @@ fn wide_gaps(design: &Design) -> Vec<String> {
     let races = &design.clutch.races;
     let rest_m = races.outer_radius_m - races.inner_radius_m;
     let limits = [("gap_nominal_mm", design.limits.gap_nominal_m), ("gap_peak_mm", design.limits.gap_peak_m)];
-    let wide = limits.into_iter().filter_map(|(key, gap)| Some((key, gap? / rest_m - 1.0)));
+    let wide =
+        limits.into_iter().filter_map(|(key, gap)| Some((key, allowed_opening_m(gap, design)? / rest_m)));
     wide.filter(|(_, share)| *share > WIDE_OPENING)
         .map(|(key, share)| {
             format!(
@@ -245,7 +246,7 @@ impl Design {
             end_torque_nm: state.curve.end_torque_nm(),
             asked_nm: limits.largest_torque_nm().unwrap_or(0.0),
             lift_off_rad_s,
-            materials: beside_the_name(&self.source).into_iter().chain(wide_gaps(self)).collect(),
+            of_file: beside_the_name(&self.source).into_iter().chain(wide_gaps(self)).collect(),
             searched_to_rad_s: LIFT_OFF_TO_RAD_S,
             overrun,
             at_speed: AtSpeedSection::new(self, &state, &rows),

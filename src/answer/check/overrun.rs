@@ -64,10 +64,8 @@ impl Design {
             near.inner_race.into_iter().for_each(|point| insert(&mut course.inner_race, point));
         }
         let cage = CageSection::of(self, state);
-        let mut section = OverrunSection::new(&course, named, self, cage);
-        section.lift_off_more_drag_rpm =
-            rpm(lift_off_rad_s.and_then(|_| lift_off_under(self, state, MORE_DRAG, LIFT_OFF_TO_RAD_S)));
-        Ok((section, lift_off_rad_s))
+        let more = lift_off_rad_s.and_then(|_| lift_off_under(self, state, MORE_DRAG, LIFT_OFF_TO_RAD_S));
+        Ok((OverrunSection::new(&course, named, self, cage, rpm(more)), lift_off_rad_s))
     }
 }
 
@@ -393,6 +391,7 @@ impl OverrunSection {
         named: Vec<NamedOverrun>,
         design: &Design,
         cage: Option<CageSection>,
+        lift_off_more_drag_rpm: Option<f64>,
     ) -> Self {
         let limits = &design.limits;
         let row = |race: &'static str, p: &OverrunPoint| OverrunRow {
@@ -425,7 +424,7 @@ impl OverrunSection {
             },
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
-            lift_off_more_drag_rpm: None,
+            lift_off_more_drag_rpm,
             lift_off_by_rpm: limits.lift_off_by_rad_s.map(|w| Unit::Rpm.from_si(w)),
             on_film,
             cage,

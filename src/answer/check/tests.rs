@@ -24,13 +24,13 @@ fn source(lift_off_rad_s: Option<f64>) -> Source {
     let design = Design::read(file.as_ref()).unwrap();
     let curve = OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 };
     Source {
-        materials: Vec::new(),
+        of_file: Vec::new(),
         end: EndReason::OffProfile,
         end_torque_nm: 50.0,
         asked_nm: 110.0,
         lift_off_rad_s,
         searched_to_rad_s: 100.0,
-        overrun: OverrunSection::new(&curve, Vec::new(), &design, None),
+        overrun: OverrunSection::new(&curve, Vec::new(), &design, None, None),
         at_speed: None,
         running: None,
         run_out: None,
