@@ -174,9 +174,10 @@ impl Design {
         record: &mut dyn Record,
     ) -> Result<SearchAnswer, NoSearch> {
         let desk = Desk::new(&settings.follow, record);
-        // Within a scope each evaluation shares threads.
-        let story = rayon::scope(|_| story::run(self, settings, &desk))?;
+        // Within a pool each evaluation shares threads; a search begins with few of them to do.
+        let (story, left_out) = rayon::join(|| story::run(self, settings, &desk), || left_out_of(self));
+        let story = story?;
         let body = SearchBody::of(&story);
-        Ok(SearchAnswer { story, left_out: left_out_of(self), body })
+        Ok(SearchAnswer { story, left_out, body })
     }
 }

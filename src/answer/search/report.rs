@@ -57,9 +57,9 @@ impl SearchReport<'_> {
             let (state, rows, _) = static_margins(design, Capacities::Wanted).ok()?;
             Some(Capacity::nominal_and_peak(&rows, state.curve.end_torque_nm()))
         };
-        let before = capacities(self.design).unwrap_or_default();
-        let after = self.answer.design(self.design, "optimum").ok();
-        let after = after.as_ref().and_then(capacities).unwrap_or_default();
+        let after = || capacities(&self.answer.design(self.design, "optimum").ok()?);
+        let (before, after) = rayon::join(|| capacities(self.design), after);
+        let (before, after) = (before.unwrap_or_default(), after.unwrap_or_default());
         let carried = before.into_iter().zip(after).zip(["nominal", "peak"]);
         let carried = carried.filter_map(|((before, after), kind)| {
             let after = after?;
