@@ -272,7 +272,7 @@ pub fn search_problem(
     derivatives += led.derivatives;
     let Climbed { best: mut outcome, starts: climbs, optima, .. } = led.climbed;
     let problem = branches[led.at].1.clone();
-    let told: Vec<Branch> = branches.into_iter().map(|(branch, _)| branch).collect();
+    let (told, climbed): (Vec<Branch>, Vec<ClutchProblem>) = branches.into_iter().unzip();
     for v in &mut variables {
         if let Some(i) = searched.iter().position(|n| *n == v.name) {
             v.best = outcome.x[i];
@@ -293,7 +293,11 @@ pub fn search_problem(
     let again = |problem: &ClutchProblem| problem.assess_at(&outcome.x).map_err(NoSearch::Start);
     desk.begins(if settled { "sensitivities" } else { "optimum in full" });
     let (sensitivity, (best, as_searched)) = rayon::join(
-        || settled.then(sensitivities).flatten(),
+        || {
+            // What they remember takes milliseconds to give back.
+            drop(climbed);
+            settled.then(sensitivities).flatten()
+        },
         || rayon::join(|| again(&problem.at_fidelity(problem.fidelity().sharper())), || again(&problem)),
     );
     let (mut best, as_searched) = (best?, as_searched?);
