@@ -7,6 +7,7 @@ mod page;
 mod rows;
 mod size;
 mod study;
+mod wider;
 
 use std::error::Error;
 
@@ -39,7 +40,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         let settings = FitSettings { starts, seed: 1, evaluations: 160 };
         let at = std::time::Instant::now();
         let found = identify(&series, &data, unknowns, &settings, &Follow::nobody())?;
-        eprintln!("{name}: {:.0} s, {} evaluations", at.elapsed().as_secs_f64(), found.evaluations);
+        let (sums, best) = &found.sums;
+        eprintln!(
+            "{name}: {:.0} s, {} evaluations, {sums:.5?} {best:.5}",
+            at.elapsed().as_secs_f64(),
+            found.evaluations
+        );
         Case::new(name, found, &all)
     };
     let study = Study {

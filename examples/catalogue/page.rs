@@ -7,6 +7,7 @@ use sprag_design::report::{Cell, Column, Curve, Page, PageHead, Plot, Table, Ton
 use crate::rows::{LEFT_OUT, PITCH_MM, Row};
 use crate::size::power_law;
 use crate::study::{Case, Study, rms, worst};
+use crate::wider::wider;
 
 pub(crate) fn page(study: &Study) -> Page {
     let mut page = Page::new(PageHead {
@@ -43,6 +44,7 @@ pub(crate) fn page(study: &Study) -> Page {
     conclusion(&mut page, study);
     page.heading("What was asked").table("", &asked(study));
     limits(&mut page, study);
+    wider(&mut page, study);
     for case in [&study.printed, &study.gap] {
         page.apart(&format!("The profile that the fitted rows identify: {}", case.name), |page| {
             identified(page, case)
@@ -110,9 +112,9 @@ fn conclusion(page: &mut Page, study: &Study) {
             (ratio - 1.0) * freedom
         ),
         format!(
-            "Set free instead, friction comes out at {}: steeper struts than μ = 0.11 allows let the large sizes carry more within their gap. The rows do not decide between \
+            "Set free instead, friction comes out at {:.3} or more: steeper struts than μ = 0.11 allows let the large sizes carry more within their gap. The rows do not decide between \
              the two; a maker who prints μ = 0.11 would not use it up at first contact.",
-            freed(friction)
+            friction.found.knowledge.estimates.last().map_or(f64::NAN, |e| e.value)
         ),
     ]);
 }

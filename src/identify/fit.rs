@@ -201,6 +201,29 @@ impl FitProblem<'_> {
         Ok(residuals)
     }
 
+    /// Moves the share of unknown `j` in `t`, which residuals near `t` do not feel, as near to that of `value` as they stay what they are,
+    /// `as_found`; the value there. Friction is such a one: more than a clutch needs to grip changes nothing, less lets it slip.
+    fn nearest(&self, t: &mut [f64], j: usize, value: f64, as_found: &DVector<f64>) -> f64 {
+        const ALIKE: f64 = 1e-9;
+        const HALVINGS: usize = 24;
+        let stays = |t: &[f64], share: f64| {
+            let mut moved = t.to_vec();
+            moved[j] = share;
+            let alike = |r: DVector<f64>| (r - as_found).norm() <= ALIKE * (1.0 + as_found.norm());
+            self.residuals(&moved).is_ok_and(alike)
+        };
+        let mut beyond = (value - self.low[j]) / self.range[j];
+        if stays(t, beyond) {
+            t[j] = beyond;
+            return value;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (t[j] + beyond);
+            if stays(t, middle) { t[j] = middle } else { beyond = middle }
+        }
+        self.values(t)[j]
+    }
+
     /// The end of a search that was stopped.
     fn stopped(&self) -> NoFit {
         let best = self.best.lock().unwrap_or_else(|e| e.into_inner()).take();
@@ -337,10 +360,12 @@ pub fn identify(
     }
     let apart = apart(&problem, &t, &jacobian, &knowledge);
     let mut named = problem.named(&t);
-    // What the data say nothing of stays as it was.
+    // What the data say nothing of stays as it was, or as near to that as they are met as well.
+    let mut kept = t.clone();
     for j in knowledge.without_influence() {
         if (unknowns[j].min..=unknowns[j].max).contains(&before[j]) {
-            (knowledge.estimates[j].value, named[j].1) = (before[j], before[j]);
+            let value = problem.nearest(&mut kept, j, before[j], &residuals);
+            (knowledge.estimates[j].value, named[j].1) = (value, value);
         }
     }
     let source = design_with(design, &[], &named).map_err(|e| nowhere(e.to_string()))?.source;
@@ -442,7 +467,7 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
 }
 
 /// Shares at which a search begins: the design's own values if they lie between the bounds, then random ones; each can
-/// be compared with the data.
+/// be compared with the data and says something of them.
 fn starts(
     problem: &FitProblem,
     unknowns: &[Unknown],
@@ -458,7 +483,12 @@ fn starts(
     });
     let mut found = Vec::new();
     let mut why = String::new();
+    // Where the clutch carries nothing in any row, no step of the search leads away.
+    let silent = |r: &DVector<f64>| {
+        r.iter().zip(problem.groups.iter().flatten()).all(|(r, o)| scaled(0.0, o) == Ok(*r))
+    };
     let mut try_one = |t: Vec<f64>, found: &mut Vec<Vec<f64>>| match problem.residuals(&t) {
+        Ok(r) if silent(&r) => "the clutch carries nothing in any row of the fit".clone_into(&mut why),
         Ok(_) => found.push(t),
         Err(reason) => why = reason,
     };

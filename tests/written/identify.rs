@@ -5,6 +5,7 @@ use std::fmt::Write;
 use sprag_design::design::Design;
 use sprag_design::file::with_values;
 use sprag_design::identify::{FitSettings, Identified, NoFit, Tied, Unknown, Use, identify, observations};
+use sprag_design::margin::{load_state, nominal_capacity};
 use sprag_design::{Follow, WedgeCurve};
 
 const MULTI: &str = include_str!("../../designs/huang2017-multi-arc.toml");
@@ -68,6 +69,28 @@ fn bounds_of_the_optimiser_bind_the_optimiser_alone() {
     let found =
         identify(&design, &observations(&csv).unwrap(), &unknowns, &settings, &Follow::nobody()).unwrap();
     assert!((found.knowledge.estimates[0].value - 3.95).abs() < 1e-6, "{:?}", found.knowledge);
+}
+
+/// Capacities feel friction only by whether the clutch grips on the way: of all that serve, the value nearest to the file's is told, the
+/// largest friction that it needs. Where the file's own serves, it stays.
+#[test]
+fn what_is_not_felt_stays_as_near_to_the_file_as_the_data_are_met() {
+    let (drawn, state) = (design(&[]), load_state(&design(&[])).unwrap());
+    let capacity = nominal_capacity(&drawn, &drawn.limits, &state).unwrap().0;
+    let on_the_way = (1..=20_000).map(|k| state.curve.at_torque(capacity * f64::from(k) / 2e4).unwrap());
+    let needed = on_the_way.map(|p| p.tan_omega.max(p.tan_nu)).fold(state.first_tan_omega, f64::max);
+    let csv = format!("nominal_torque_nm\n{capacity}\n");
+    let settings = FitSettings { starts: 2, seed: 7, evaluations: 40 };
+    for (file, expected) in [(0.7 * needed, needed), (1.5 * needed, 1.5 * needed)] {
+        let design = design(&[("friction.static", file), ("friction.kinetic", 0.4 * needed)]);
+        let unknowns = [unknown("friction.static", 0.6 * needed, 3.0 * needed)];
+        let found =
+            identify(&design, &observations(&csv).unwrap(), &unknowns, &settings, &Follow::nobody()).unwrap();
+        let e = &found.knowledge.estimates[0];
+        assert!((e.value / expected - 1.0).abs() < 1e-5, "{file}: {e:?}, not {expected}");
+        assert!(found.points[0].relative().unwrap().abs() < 1e-9, "{:?}", found.points);
+        assert!(Design::parse(&found.source, "x.toml").unwrap().clutch.friction.static_ == e.value);
+    }
 }
 
 #[test]

@@ -136,6 +136,21 @@ fn doubt_sentence(found: &Identified, j: usize, doubt: Doubt) -> Option<String> 
     })
 }
 
+/// What is said of the unknown called `name`, which the data do not feel where it ended.
+fn silent(found: &Identified, name: &str) -> String {
+    let at = found.unknowns.iter().position(|u| u.name == name);
+    let bound = at.filter(|&j| {
+        let (u, before) = (&found.unknowns[j], found.before[j]);
+        (u.min..=u.max).contains(&before) && found.knowledge.estimates[j].value != before
+    });
+    let bound = bound.map_or(String::new(), |j| {
+        let (value, before) = (found.knowledge.estimates[j].value, found.before[j]);
+        let side = if value > before { "below" } else { "above" };
+        format!(", but that {side} {} they are no longer met as well", significant(value, 4))
+    });
+    format!("the data say nothing of {name}{bound}")
+}
+
 /// Root of chi^2 over the degrees of freedom from which on standard errors are doubted: a choice, far beyond chance for ten rows.
 const TOO_MUCH: f64 = 2.0;
 
@@ -225,7 +240,7 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
                     .map(|(d, u)| format!("{} by {}", u.name, significant(d * (u.max - u.min), 3)))
                     .collect();
                 match moved.as_slice() {
-                    [one] => format!("the data say nothing of {}", one.split(" by ").next().unwrap_or(one)),
+                    [one] => silent(found, one.split(" by ").next().unwrap_or(one)),
                     _ => format!(
                         "the data cannot tell these apart: moving {} together changes no observation",
                         moved.join(", ")
