@@ -125,11 +125,11 @@ limits! {
     peak_torque_nm: "exclusiveMinimum" 0, "Nm" -> peak_torque_nm by same, ALONE,
         "Largest torque, which comes seldom, at which the limits of peak torque are held, N m.";
     hertz_nominal_mpa: "exclusiveMinimum" 0, "MPa" -> hertz_nominal_pa by pa, AT_NOMINAL,
-        "Allowed Hertz pressure at nominal torque, MPa.";
+        "Allowed Hertz pressure up to nominal torque, MPa.";
     hertz_peak_mpa: "exclusiveMinimum" 0, "MPa" -> hertz_peak_pa by pa, AT_PEAK,
-        "Allowed Hertz pressure at peak torque, MPa.";
+        "Allowed Hertz pressure up to peak torque, MPa.";
     along_mpa: "exclusiveMinimum" 0, "MPa" -> along_pa by pa, AT_PEAK,
-        "Allowed pressure anywhere along the contacts at peak torque, with end profile and tilt, MPa; needs an end_profile.";
+        "Allowed pressure anywhere along the contacts up to peak torque, with end profile and tilt, MPa; needs an end_profile.";
     hoop_inner_mpa: "exclusiveMinimum" 0, "MPa" -> hoop_inner_pa by pa, AT_PEAK,
         "Allowed magnitude of the inner race's mean hoop stress at peak torque, MPa.";
     hoop_outer_mpa: "exclusiveMinimum" 0, "MPa" -> hoop_outer_pa by pa, AT_PEAK,
@@ -141,9 +141,9 @@ limits! {
     case_depth_mm: "exclusiveMinimum" 0, "mm" -> case_depth_m by m, ALONE,
         "Depth of the hardened case of sprag and races, mm.";
     case_shear_mpa: "exclusiveMinimum" 0, "MPa" -> case_shear_pa by pa, AT_PEAK,
-        "Allowed largest shear below a contact at peak torque, MPa.";
+        "Allowed largest shear below a contact up to peak torque, MPa.";
     core_shear_mpa: "exclusiveMinimum" 0, "MPa" -> core_shear_pa by pa, AT_PEAK_BELOW_CASE,
-        "Allowed shear below a contact at case_depth_mm and deeper at peak torque, MPa.";
+        "Allowed shear below a contact at case_depth_mm and deeper up to peak torque, MPa.";
     body_yield_mpa: "exclusiveMinimum" 0, "MPa" -> body_yield_pa by pa, AT_PEAK,
         "Allowed compression of the sprag's body, half way between its contacts, at peak torque, MPa; needs flanks or\na width_mm.";
     axial_load_n: "minimum" 0, "N" -> axial_load_n by same, AT_PEAK,

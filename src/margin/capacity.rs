@@ -151,8 +151,7 @@ pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> 
     if !all().any(|b| nominal(&b)) {
         return None;
     }
-    // Limits of which states on the way count are those of the grip.
-    let grips = |b: &Bounded| matches!(b.limit.of, Of::Sprag { below_torque: Some(_), .. });
+    let grips = |b: &Bounded| b.limit.is_grip();
     let reached = all()
         .filter(|b| nominal(b) || grips(b))
         .map(|b| (torque_where(state, b.allowed, &*b.demand), b.limit.code));

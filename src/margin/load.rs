@@ -293,7 +293,7 @@ fn unloaded_row(case: &LoadCase, limit: &'static Limit) -> Option<Margin> {
 
 /// States looked at between no load and the peak, beside the peak itself: a choice; demands are smooth but at
 /// junctions, which divide the curve into a few pieces.
-const LOOKS: usize = 24;
+pub(super) const LOOKS: usize = 24;
 
 /// Numbers of the looks at states below `peak`, and these, rising.
 fn below(state: &LoadState, peak: &StaticPoint) -> impl Iterator<Item = (usize, StaticPoint)> {

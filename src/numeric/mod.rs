@@ -1,4 +1,4 @@
-//! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves,
+//! Numerical tools that never heard of a machine part: duals, bracketed roots, tops, quadrature, Chebyshev curves,
 //! Toeplitz systems, eigenvalues, courses over time, quantiles, decimals, points that fill a box evenly, ranges of settings.
 //!
 //! In: functions of one variable, rows of matrices. Out: roots, integrals, approximations with a stated error.
@@ -8,6 +8,7 @@ pub mod chebyshev;
 pub mod course;
 pub mod dual;
 pub mod eigen;
+pub mod golden;
 pub mod panels;
 pub mod pieces;
 pub mod quadrature;

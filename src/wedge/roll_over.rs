@@ -29,6 +29,7 @@ use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, WedgeCurve};
 use super::table::{ArcTable, LANES, Layout, lanes_of, later_windup};
 use crate::numeric::dual::Dual;
+use crate::numeric::golden::top;
 use crate::numeric::panels::Panels;
 use crate::numeric::{pieces::Pieces, quadrature, root};
 use crate::profile::Brink;
@@ -427,7 +428,6 @@ impl WedgeCurve {
     /// The extreme (`sign` 1: largest, -1: least) of the torque beside `coarse`, by golden sections of the piece in
     /// which that lies; the pieces begin at `begins` (alpha).
     fn sharpened(&self, coarse: OverPoint, begins: &[f64], sign: f64) -> OverPoint {
-        const SHARE: f64 = 0.618_033_988_749_894_9;
         let mut best = coarse;
         for (i, &begin) in begins.iter().enumerate() {
             let (place, until) = (self.arcs.len() + i, self.over[i].alpha_until);
@@ -435,13 +435,8 @@ impl WedgeCurve {
                 continue;
             }
             let step = (until - begin) / POINTS as f64;
-            let (mut a, mut b) = ((coarse.alpha_rad - step).max(begin), (coarse.alpha_rad + step).min(until));
-            let torque = |alpha: f64| sign * self.over_point(place, alpha, 0.0).torque_nm;
-            for _ in 0..60 {
-                let (c, d) = (b - SHARE * (b - a), a + SHARE * (b - a));
-                if torque(c) > torque(d) { b = d } else { a = c }
-            }
-            let alpha = 0.5 * (a + b);
+            let (a, b) = ((coarse.alpha_rad - step).max(begin), (coarse.alpha_rad + step).min(until));
+            let alpha = top(a, b, |alpha| sign * self.over_point(place, alpha, 0.0).torque_nm);
             let stored_j = coarse.stored_j + self.work_j(place, coarse.alpha_rad, alpha);
             let found = self.over_point(place, alpha, stored_j);
             if sign * found.torque_nm > sign * best.torque_nm {

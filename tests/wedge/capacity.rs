@@ -168,3 +168,51 @@ fn crowding_has_a_torque() {
     );
     assert!(gap.abs() < 1e-9, "{gap}");
 }
+
+/// Where a junction leads to a radius twice as large, the pressure behind it falls while the torque rises: what was larger before counts
+/// for pressure, for shear below the contact and for the pressure along it, and limits its torque.
+#[test]
+fn the_largest_pressure_on_the_way_to_a_torque_counts() {
+    let wide = MULTI
+        .replacen("length_mm = 6.0", "length_mm = 20.0", 1)
+        .replacen("\nwidth_mm = 6.0", "\nwidth_mm = 60.0", 1)
+        .replacen("radius_mm = 4.08, until_rad = 0.12", "radius_mm = 4.05, until_rad = 0.14", 1)
+        .replacen("radius_mm = 4.15, until_rad = 0.45", "radius_mm = 9.0, until_rad = 0.36", 1)
+        .replacen("[contact]", "[contact]\nend_profile = { kind = \"crown\", radius_mm = 8000.0 }", 1)
+        .replacen("= 110.0", "= 280.0\ncase_shear_mpa = 900.0\nalong_mpa = 4000.0", 1);
+    let made = |text: &str| {
+        let design = Design::parse(text, "wide.toml").unwrap();
+        let state = load_state(&design).unwrap();
+        let rows = load_margins(&design, &design.limits, Capacities::Wanted, &state);
+        (state, rows)
+    };
+    let (state, rows) = made(&wide);
+    let p0 = |torque: f64| state.curve.at_torque(torque).unwrap().hertz_inner_pa;
+    let (at_nm, largest) = (1..=2800)
+        .map(|k| 0.1 * f64::from(k))
+        .map(|t| (t, p0(t)))
+        .fold((0.0, 0.0), |most, here| if here.1 > most.1 { here } else { most });
+    assert!(at_nm < 250.0 && largest > 1.01 * p0(280.0), "{largest} at {at_nm}, {} at the peak", p0(280.0));
+    let demand = |code: &str| row(&rows, code).demand_in_unit().unwrap() * 1e6;
+    // A step of the torques looked at here is 5e-4 of them, half of that in pressure.
+    let beside_grid = demand("hertz-peak-inner") / largest - 1.0;
+    assert!((0.0..2.5e-4).contains(&beside_grid), "{beside_grid:e}");
+    let shear = demand("subsurface-inner") / (0.300_283 * demand("hertz-peak-inner"));
+    assert!((shear - 1.0).abs() < 1e-5, "{shear}");
+    let outer = state.curve.at_torque(280.0).unwrap().hertz_outer_pa;
+    assert!(demand("hertz-peak-outer") == outer, "the outer contact has one radius");
+    let there = wide.replacen("peak_torque_nm = 280.0", &format!("peak_torque_nm = {at_nm}"), 1);
+    let there = there.replacen("nominal_torque_nm = 90.0", "nominal_torque_nm = 50.0", 1);
+    let (_, before) = made(&there);
+    let along = |code: &str| demand(code) / (row(&before, code).demand_in_unit().unwrap() * 1e6) - 1.0;
+    assert!(along("along-middle-inner").abs() < 2.5e-4, "{}", along("along-middle-inner"));
+    // The ends bear a growing part, and most at the peak.
+    assert!((1e-3..1e-2).contains(&along("along-ends-inner")), "{}", along("along-ends-inner"));
+
+    let between = 0.5 * (largest + p0(280.0));
+    let tight = wide.replacen("hertz_peak_mpa = 4600.0", &format!("hertz_peak_mpa = {}", 1e-6 * between), 1);
+    assert_ne!(tight, wide);
+    let (_, tight) = made(&tight);
+    let m = row(&tight, "hertz-peak-inner");
+    assert!(m.margin() < 0.0 && m.torque_capacity_nm.unwrap() < at_nm, "{m:?}");
+}
