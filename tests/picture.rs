@@ -96,6 +96,7 @@ const TYPICAL: &[(&str, &str)] = &[
     ("race_to_oil_w_per_k", "1 … 10"),
     ("lubrication.nu100_mm2_s", "4 … 20"),
     ("lubrication.nu40_mm2_s", "15 … 460"),
+    ("lubrication.slip_heat_w", "0 … 50"),
     ("lubrication.sprags_to_oil_w_per_k", "0.5 … 5"),
     ("expansion_um_per_m_k", "11 … 12.5, steel"),
     ("density_kg_m3", "7700 … 7850, steel; 3200, silicon nitride"),

@@ -25,6 +25,8 @@ pub struct Lubrication {
     pub race_wear_m2_per_n: f64,
     /// Conductances of inner race, all sprags, outer race to the oil, W/K; `None`: estimated.
     pub to_oil_w_per_k: [Option<f64>; 3],
+    /// Mean heat of slips at A beside the drag, all sprags, W.
+    pub slip_heat_w: f64,
     /// A slip whose flash temperature and wear are asked for.
     pub slip: Option<SlipCase>,
 }

@@ -58,6 +58,10 @@ pub(super) struct LubricationFile {
     /// From outer race and housing to the oil, W/K; absent: as above.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub outer_race_to_oil_w_per_k: Option<f64>,
+    /// Mean heat of slips at the inner contact beside the drag, all sprags, W: the work of a slip times how often it comes in a second.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0))]
+    pub slip_heat_w: f64,
     /// A slip whose flash temperature and wear are asked for.
     pub slip: Option<SlipFile>,
 }
@@ -140,6 +144,7 @@ pub(super) fn lubrication(file: &DesignFile, out: &mut Findings) -> Option<Optio
         sprag_wear_m2_per_n: 1e-9 * f.sprag_wear_mm3_per_nm,
         race_wear_m2_per_n: 1e-9 * f.race_wear_mm3_per_nm,
         to_oil_w_per_k: [f.inner_race_to_oil_w_per_k, f.sprags_to_oil_w_per_k, f.outer_race_to_oil_w_per_k],
+        slip_heat_w: f.slip_heat_w,
         slip: f.slip.map(|s| SlipCase {
             torque_nm: s.torque_nm,
             speed_m_s: s.speed_m_s,

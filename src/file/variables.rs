@@ -137,6 +137,7 @@ const UNITS: &[(&str, &str)] = &[
     ("size_um", "µm"),
     ("size_within_um", "µm"),
     ("slices", ""),
+    ("slip_heat_w", "W"),
     ("speed_m_s", "m/s"),
     ("speed_rpm", "rpm"),
     ("sprag_inner_radius_mm", "mm"),

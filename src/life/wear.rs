@@ -45,6 +45,8 @@ pub struct SlipEffect {
     pub normal_n: f64,
     /// Friction coefficient.
     pub friction: f64,
+    /// Work of friction at the inner contacts of all sprags, J: their heat.
+    pub work_j: f64,
     /// Heat of one contact over its flat, W/m^2.
     pub flux_w_m2: f64,
     /// Rise of the hottest place above the bodies, K.
@@ -73,6 +75,7 @@ pub fn slip_effect(design: &Design, state: &LoadState) -> Option<SlipEffect> {
         case,
         normal_n,
         friction,
+        work_j: design.clutch.sprags.count as f64 * friction * normal_n * case.path_m,
         flux_w_m2,
         flash_k: flash_k(flux_w_m2, half, case.speed_m_s, case.path_m),
         peclet: peclet(half, case.speed_m_s, case.path_m / case.speed_m_s),

@@ -41,7 +41,7 @@ pub struct Temperatures {
 pub struct Heat {
     /// Temperatures.
     pub temperatures: Temperatures,
-    /// Heat made in the contacts, W.
+    /// Heat made in the contacts, W, slips with it.
     pub heat_w: f64,
     /// What the oil takes from inner race, sprags, outer race, W.
     pub to_oil_w: [f64; 3],
@@ -65,9 +65,9 @@ impl Heat {
 }
 
 impl Network {
-    /// Temperatures at which what the contacts make, `heat_w`, goes to oil of `oil_c`. Linear:
-    /// K (T - T_oil) = (heat, 0, 0, 0), K symmetric.
-    pub fn solve(&self, heat_w: f64, oil_c: f64) -> Option<Heat> {
+    /// Temperatures at which what the contacts make, `heat_w`, and what goes into inner race, sprags and outer race by themselves,
+    /// `bodies_w`, goes to oil of `oil_c`. Linear: K (T - T_oil) = (heat, bodies), K symmetric.
+    pub fn solve(&self, heat_w: f64, bodies_w: [f64; 3], oil_c: f64) -> Option<Heat> {
         let Self { into_race: r, into_sprags: s, through_outer: o, to_oil: [i, p, e] } = *self;
         let k = Matrix4::from([
             [r + s, -r, -s, 0.0],
@@ -75,13 +75,15 @@ impl Network {
             [-s, 0.0, s + o + p, -o],
             [0.0, 0.0, -o, o + e],
         ]);
-        let rise = k.cholesky()?.solve(&Vector4::new(heat_w, 0.0, 0.0, 0.0));
+        let [race_w, sprags_w, outer_w] = bodies_w;
+        let rise = k.cholesky()?.solve(&Vector4::new(heat_w, race_w, sprags_w, outer_w));
         let temperatures = Temperatures {
             contact: oil_c + rise[0],
             inner_race: oil_c + rise[1],
             sprags: oil_c + rise[2],
             outer_race: oil_c + rise[3],
         };
+        let heat_w = heat_w + bodies_w.iter().sum::<f64>();
         Some(Heat { temperatures, heat_w, to_oil_w: [i * rise[1], p * rise[2], e * rise[3]] })
     }
 }

@@ -197,10 +197,17 @@ impl Steady<'_> {
         }
         let film = law.at(speed, state.sliding_n);
         let network = self.network(&law, &state);
-        let heat =
-            network.solve(state.drag_torque_nm * self.sliding_rad_s(), self.lubrication.temperature_c)?;
+        let drag_w = state.drag_torque_nm * self.sliding_rad_s();
+        let heat = network.solve(drag_w, self.slips_w(), self.lubrication.temperature_c)?;
         let heat = if self.clutch.slides_outside() { heat.inside_out() } else { heat };
         Some((state, Lubricated { law, film, film_c, heat }))
+    }
+
+    /// Heat of slips at A into the bodies of [`Network`], W: half of it into the sprags and half into the inner race, of one steel and
+    /// under one flash. Where B slides that race is the farther one.
+    fn slips_w(&self) -> [f64; 3] {
+        let half_w = 0.5 * self.lubrication.slip_heat_w;
+        if self.clutch.slides_outside() { [0.0, half_w, half_w] } else { [half_w, half_w, 0.0] }
     }
 
     /// Temperature of the film, C: the mean of the bodies beside it, where what they reach is what the film was taken to have.

@@ -268,12 +268,17 @@ fn the_flash_of_a_slip_that_speeds_up_and_brakes_is_that_of_conduction_too() {
 #[test]
 fn heat_balances_and_goes_where_it_can() {
     let network = Network { into_race: 50.0, into_sprags: 20.0, through_outer: 5.0, to_oil: [2.0, 1.0, 3.0] };
-    let heat = network.solve(100.0, 60.0).unwrap();
+    let heat = network.solve(100.0, [0.0; 3], 60.0).unwrap();
     assert!(heat.balance_error() < 1e-13);
     // One way alone, by hand: 100 W through 50 and 2 W/K.
-    let one = Network { into_sprags: 1e-12, ..network }.solve(100.0, 60.0).unwrap().temperatures;
+    let one = Network { into_sprags: 1e-12, ..network }.solve(100.0, [0.0; 3], 60.0).unwrap().temperatures;
     near(one.inner_race, 60.0 + 50.0, 1e-9);
     near(one.contact, 60.0 + 50.0 + 2.0, 1e-9);
+    // What goes into a body itself warms no other through which none of it flows: 40 W through 3 W/K of an outer race cut off.
+    let apart = Network { through_outer: 1e-12, ..network }.solve(0.0, [0.0, 0.0, 40.0], 60.0).unwrap();
+    near(apart.temperatures.outer_race, 60.0 + 40.0 / 3.0, 1e-9);
+    near(apart.temperatures.sprags, 60.0, 1e-9);
+    assert!(apart.balance_error() < 1e-9 && apart.heat_w == 40.0);
     let design = changed(&[]);
     let speeds = [30.0, 100.0, 300.0, 1000.0];
     let question = OverrunQuestion {
@@ -314,6 +319,27 @@ fn heat_balances_and_goes_where_it_can() {
     let given = changed(&[("temperature_c = 60.0", "temperatures = \"given\"\ntemperature_c = 60.0")]);
     let line = given.overrun(&OverrunQuestion::default()).unwrap().lines[4];
     assert_eq!(line.point.lubricated.unwrap().film_c, 60.0);
+}
+
+/// Slips heat the bodies beside the drag, whose film gets thinner.
+#[test]
+fn heat_of_slips_joins_that_of_the_drag() {
+    let design = changed(&[]);
+    let slipping = design.with(&[("lubrication.slip_heat_w".to_owned(), "10".to_owned())], "x").unwrap();
+    let question = OverrunQuestion {
+        race: RunningRace::Inner,
+        speeds_rad_s: vec![30.0, 300.0],
+        temperatures_c: vec![60.0],
+    };
+    let [before, after] = [&design, &slipping].map(|d| d.overrun(&question).unwrap());
+    for (b, a) in before.lines.iter().zip(&after.lines) {
+        let [b_film, a_film] = [b, a].map(|l| l.point.lubricated.unwrap());
+        near(a_film.heat.heat_w, a.point.state.drag_torque_nm * a.speed_rad_s + 10.0, 1e-12);
+        assert!(a_film.heat.balance_error() < 1e-9 && a_film.film_c > b_film.film_c + 3.0, "{a_film:?}");
+        assert!(a_film.film.film.thickness_m < b_film.film.film.thickness_m);
+    }
+    let slip = after.slip.unwrap();
+    near(slip.work_j, 12.0 * slip.friction * slip.normal_n * slip.case.path_m, 1e-12);
 }
 
 #[test]

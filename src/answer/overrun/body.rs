@@ -27,6 +27,8 @@ pub struct SlipBody {
     pub sprag_wear_um: f64,
     /// Torque that is carried, N m.
     pub torque_nm: f64,
+    /// Heat of the inner contacts of all sprags, J.
+    pub work_j: f64,
 }
 
 /// Keys of `overrun`.
@@ -64,6 +66,7 @@ impl SlipBody {
             peclet: s.peclet,
             sprag_wear_um: Unit::Micrometre.from_si(s.sprag_m),
             race_wear_um: Unit::Micrometre.from_si(s.race_m),
+            work_j: s.work_j,
         }
     }
 }

@@ -368,12 +368,13 @@ impl OverrunAnswer<'_> {
         }));
         if let Some(s) = &self.slip {
             all.push(format!(
-                "A slip of {} at {} under {}: μ {}, flash {} above the bodies; wears {} off each sprag, {} off the race under it",
+                "A slip of {} at {} under {}: μ {}, flash {} above the bodies, {} of heat in all sprags; wears {} off each sprag, {} off the race under it",
                 Unit::Millimetre.show(s.case.path_m, 3),
                 Unit::MetrePerSecond.show(s.case.speed_m_s, 3),
                 Unit::NewtonMetre.show(s.case.torque_nm, 4),
                 significant(s.friction, 3),
                 kelvin(s.flash_k),
+                Unit::Joule.show(s.work_j, 3),
                 Unit::Micrometre.show(s.sprag_m, 3),
                 Unit::Micrometre.show(s.race_m, 3),
             ));
@@ -381,6 +382,12 @@ impl OverrunAnswer<'_> {
             all.push(format!(
                 "No slip: {} is beyond what the clutch carries",
                 Unit::NewtonMetre.show(case.torque_nm, 4)
+            ));
+        }
+        if l.slip_heat_w > 0.0 {
+            all.push(format!(
+                "Of the heat {} is that of slips (lubrication.slip_heat_w), half in the inner race and half in the sprags",
+                Unit::Watt.show(l.slip_heat_w, 3)
             ));
         }
         if l.to_oil_w_per_k.iter().any(Option::is_none) {
