@@ -20,7 +20,9 @@ pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use lubrication::{Lubrication, SlipCase};
 pub use question::{Phrase, Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
-pub use service::{FatigueStrength, PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, Service};
+pub use service::{
+    CoreStrength, FatigueStrength, PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, Service,
+};
 pub use sharing::{GivenSprag, Sharing, Standing, TrackWave};
 pub use tolerances::Tolerances;
 

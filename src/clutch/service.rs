@@ -15,6 +15,8 @@ pub struct Service {
     pub histories: Vec<RepeatedHistory>,
     /// What the contacts bear; `None`: not known, so no life until pitting.
     pub pitting: Option<PittingStrength>,
+    /// What the core below the hardened case bears; `None`: not known.
+    pub core: Option<CoreStrength>,
     /// What the races bear as rings; `None`: not known.
     pub rings: Option<FatigueStrength>,
     /// What the bodies of the sprags bear in their narrowest section; `None`: not known.
@@ -68,6 +70,19 @@ pub struct PittingStrength {
     /// Load cycles at that pressure.
     pub cycles: f64,
     /// Exponent of the pressure.
+    pub exponent: f64,
+}
+
+/// One point of the life of the core below a hardened case, and its slope: cycles = `cycles` (shear/`shear_pa`)^-`exponent`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoreStrength {
+    /// Largest shear that is borne `cycles` times, Pa.
+    pub shear_pa: f64,
+    /// Depth of the case, m: the shear there counts, or that of a greater depth where it is larger.
+    pub depth_m: f64,
+    /// Load cycles at that shear.
+    pub cycles: f64,
+    /// Exponent of the shear.
     pub exponent: f64,
 }
 

@@ -9,8 +9,9 @@ use super::history::HistoryKind;
 use super::scenario_file::ScenarioFile;
 use super::scenarios::{KindFile, Load, refuse_history};
 use crate::clutch::{
-    FatigueStrength, PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, Service,
+    CoreStrength, FatigueStrength, PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, Service,
 };
+use crate::design::m;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -34,6 +35,8 @@ pub(super) struct LifeFile {
     pub histories: Vec<RepeatedFile>,
     /// What a contact of sprag and race bears; absent: no life until pitting.
     pub pitting: Option<PittingFile>,
+    /// What the core bears below the hardened case, limits.case_depth_mm deep, of sprags and races; absent: no life of it.
+    pub core: Option<CoreFile>,
     /// What the races bear as rings; absent: no life until they break.
     pub rings: Option<FatigueFile>,
     /// What the bodies of the sprags bear half way between their contacts, where `sprags.flanks` bound them; absent: no life until they
@@ -103,6 +106,22 @@ pub(super) struct PittingFile {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub cycles: f64,
     /// Exponent of the pressure; absent: 20/3, twice the 10/3 of the load in ISO 281 for line contacts.
+    #[serde(default = "line_contact")]
+    #[schemars(extend("minimum" = 1, "maximum" = 50))]
+    pub exponent: f64,
+}
+
+/// One point of the life of the core below the case and its slope: cycles = cycles (shear/shear_mpa)^-exponent.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CoreFile {
+    /// Largest shear below a contact, at limits.case_depth_mm and deeper, that is borne `cycles` times, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub shear_mpa: f64,
+    /// Load cycles at it, with the reliability that the life shall have.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cycles: f64,
+    /// Exponent of the shear; absent: 20/3, that of the pressure in ISO 281 for line contacts.
     #[serde(default = "line_contact")]
     #[schemars(extend("minimum" = 1, "maximum" = 50))]
     pub exponent: f64,
@@ -208,6 +227,24 @@ pub(super) fn service(
         }
     }
     let pa = |mpa: f64| mpa * 1e6;
+    let core = match (file.core, whole.limits.case_depth_mm) {
+        (None, _) => Some(None),
+        (Some(c), Some(depth_mm)) => Some(Some(CoreStrength {
+            shear_pa: pa(c.shear_mpa),
+            depth_m: m(depth_mm),
+            cycles: c.cycles,
+            exponent: c.exponent,
+        })),
+        (Some(_), None) => {
+            let help = "add case_depth_mm to [limits], or remove core from [life]".to_owned();
+            out.refuse(
+                &["life.core"],
+                "only with limits.case_depth_mm, below which the core begins".to_owned(),
+                help,
+            );
+            None
+        }
+    };
     let fatigue = |f: FatigueFile| FatigueStrength {
         amplitude_pa: pa(f.amplitude_mpa),
         cycles: f.cycles,
@@ -236,6 +273,7 @@ pub(super) fn service(
             cycles: p.cycles,
             exponent: p.exponent,
         }),
+        core: core?,
         rings: file.rings.map(fatigue),
         sprags: file.sprags.map(fatigue),
         same_places: file.same_places,

@@ -134,6 +134,7 @@ const UNITS: &[(&str, &str)] = &[
     ("seed", ""),
     ("spectrum", ""),
     ("shaft_bore_radius_mm", "mm"),
+    ("shear_mpa", "MPa"),
     ("size_um", "µm"),
     ("size_within_um", "µm"),
     ("slices", ""),

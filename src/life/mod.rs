@@ -21,9 +21,9 @@ pub use outline_worn::{BLUNT, BLUNT_BY_RADIUS, Worn, WornOutside, worn};
 pub use wear::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
 pub use worn::{Broken, Wear, WornLife, WornState, worn_life, worn_life_with, worn_state};
 
-use crate::clutch::{FatigueStrength, PittingStrength, Service};
+use crate::clutch::{CoreStrength, FatigueStrength, PittingStrength, Service};
 use crate::design::Design;
-use crate::margin::{LoadState, NoMargins, body_flanks_pa, load_state, ring_places_pa, rings_pa};
+use crate::margin::{LoadState, NoMargins, body_flanks_pa, load_state, ring_places_pa, rings_pa, shear_in};
 use crate::wedge::StaticPoint;
 use count::{engagements, rainflow, turning_points};
 use std::collections::BTreeMap;
@@ -48,6 +48,14 @@ pub enum LifePlace {
     InnerTrack,
     /// Track of the outer race.
     OuterTrack,
+    /// Core of the sprag below its case, at its contact with the inner race.
+    SpragCoreInside,
+    /// Core of the sprag below its case, at its contact with the outer race.
+    SpragCoreOutside,
+    /// Core of the inner race below its case.
+    InnerCore,
+    /// Core of the outer race below its case.
+    OuterCore,
     /// Inner race as a ring.
     InnerRing,
     /// Outer race as a ring.
@@ -58,19 +66,28 @@ pub enum LifePlace {
 
 impl LifePlace {
     /// All, contacts first.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 11] = [
         Self::SpragInside,
         Self::SpragOutside,
         Self::InnerTrack,
         Self::OuterTrack,
+        Self::SpragCoreInside,
+        Self::SpragCoreOutside,
+        Self::InnerCore,
+        Self::OuterCore,
         Self::InnerRing,
         Self::OuterRing,
         Self::SpragBody,
     ];
 
-    /// The places that contacts press, in the order of [`Self::ALL`].
+    /// The surfaces that contacts press, in the order of [`Self::ALL`].
     pub fn contacts() -> impl Iterator<Item = Self> {
-        Self::ALL.into_iter().filter(|place| place.is_contact())
+        Self::ALL.into_iter().filter(|place| place.is_contact() && !place.is_core())
+    }
+
+    /// Whether it lies below a hardened case.
+    pub fn is_core(self) -> bool {
+        matches!(self, Self::SpragCoreInside | Self::SpragCoreOutside | Self::InnerCore | Self::OuterCore)
     }
 
     /// Whether a contact is pressed there; else a body swings between two stresses.
@@ -79,14 +96,14 @@ impl LifePlace {
     }
 
     fn is_inside(self) -> bool {
-        matches!(self, Self::SpragInside | Self::InnerTrack)
+        matches!(self, Self::SpragInside | Self::InnerTrack | Self::SpragCoreInside | Self::InnerCore)
     }
 
     /// Contacts in one engagement, of those that places of the tracks see.
     fn times(self, passes: [f64; 2]) -> f64 {
         match self {
-            Self::InnerTrack => passes[0],
-            Self::OuterTrack => passes[1],
+            Self::InnerTrack | Self::InnerCore => passes[0],
+            Self::OuterTrack | Self::OuterCore => passes[1],
             _ => 1.0,
         }
     }
@@ -98,6 +115,14 @@ impl LifePlace {
             Self::SpragOutside => ("pitting-sprag-outside", "pitting of the sprags, outer contact"),
             Self::InnerTrack => ("pitting-inner-track", "pitting of the inner race"),
             Self::OuterTrack => ("pitting-outer-track", "pitting of the outer race"),
+            Self::SpragCoreInside => {
+                ("core-sprag-inside", "fatigue of the sprags below the case, inner contact")
+            }
+            Self::SpragCoreOutside => {
+                ("core-sprag-outside", "fatigue of the sprags below the case, outer contact")
+            }
+            Self::InnerCore => ("core-inner-race", "fatigue of the inner race below the case"),
+            Self::OuterCore => ("core-outer-race", "fatigue of the outer race below the case"),
             Self::InnerRing => ("fatigue-inner-ring", "fatigue of the inner race as a ring"),
             Self::OuterRing => ("fatigue-outer-ring", "fatigue of the outer race as a ring"),
             Self::SpragBody => ("fatigue-sprag-body", "fatigue of the sprags' bodies"),
@@ -223,7 +248,10 @@ pub fn life(design: &Design, service: &Service) -> Result<Life, NoMargins> {
     let (counted, cycles) = counted(service);
     let loads: Vec<LoadEffect> =
         counted.iter().rev().map(|(torque_nm, n)| effect(design, service, &state, *torque_nm, *n)).collect();
-    let there = |place: &LifePlace| *place != LifePlace::SpragBody || design.clutch.sprags.flanks.is_some();
+    let there = |place: &LifePlace| match place {
+        LifePlace::SpragBody => design.clutch.sprags.flanks.is_some(),
+        place => !place.is_core() || service.core.is_some(),
+    };
     let places = LifePlace::ALL.into_iter().filter(there);
     let used = places.map(|place| used(design, service, &state, place, &loads, &cycles)).collect();
     let largest = loads.first();
@@ -367,7 +395,7 @@ fn used(
         true => {
             let one = |l: &LoadEffect| {
                 let n = l.engagements * place.times(l.passes);
-                (n, contact_part(service, l.state.as_ref(), place).map(|part| n * part), l.torque_nm)
+                (n, contact_part(design, service, l.state.as_ref(), place).map(|part| n * part), l.torque_nm)
             };
             loads.iter().map(one).collect()
         }
@@ -395,7 +423,8 @@ pub fn part_at(
         false => swing_part(design, service, state, place, 0.0, torque_nm),
         true => {
             let load = once(design, service, state, torque_nm);
-            contact_part(service, load.state.as_ref(), place).map(|part| part * place.times(load.passes))
+            contact_part(design, service, load.state.as_ref(), place)
+                .map(|part| part * place.times(load.passes))
         }
     }
 }
@@ -424,11 +453,30 @@ fn swing_part(
     parts.max_by(f64::total_cmp)
 }
 
-/// One contact at the pressure of a load, whose state is `p`.
-fn contact_part(service: &Service, p: Option<&StaticPoint>, place: LifePlace) -> Option<f64> {
+/// One contact at the pressure of a load, whose state is `p`, or what lies below it.
+fn contact_part(
+    design: &Design,
+    service: &Service,
+    p: Option<&StaticPoint>,
+    place: LifePlace,
+) -> Option<f64> {
     let p = p?;
-    let pa = if place.is_inside() { p.hertz_inner_pa } else { p.hertz_outer_pa };
+    let (pa, normal_n) = match place.is_inside() {
+        true => (p.hertz_inner_pa, p.normal_inner_n),
+        false => (p.hertz_outer_pa, p.normal_outer_n),
+    };
+    if place.is_core() {
+        let core = service.core.as_ref()?;
+        return Some(core.part(shear_in(&design.clutch, (pa, normal_n), core.depth_m).0));
+    }
     service.pitting.as_ref().map(|strength| strength.part(pa))
+}
+
+impl CoreStrength {
+    /// Part of the life that one cycle at the shear `pa` uses up.
+    pub fn part(&self, pa: f64) -> f64 {
+        (pa / self.shear_pa).powf(self.exponent) / self.cycles
+    }
 }
 
 impl PittingStrength {

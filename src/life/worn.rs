@@ -423,7 +423,7 @@ impl March<'_> {
             });
             let passes = p.map_or([0.0; 2], |p| passes(design, self.service, &p, walks_m(design, worn, &p)));
             for (sum, place) in sums.iter_mut().zip(LifePlace::contacts()) {
-                let part = contact_part(self.service, p.as_ref(), place);
+                let part = contact_part(design, self.service, p.as_ref(), place);
                 *sum = sum.zip(part).map(|(sum, part)| sum + load.engagements * place.times(passes) * part);
             }
         }

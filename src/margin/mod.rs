@@ -31,6 +31,7 @@ pub use overrun::{
 pub use row::{BeyondEnd, Demand, Left, Margin, RESOLUTION, Rule, lowest_capacity};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
+pub use subsurface::shear_in;
 pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP, allowed_opening_m};
 pub use track_tension::{TrackPatch, TrackTension, track_tension};
 pub use unlike::unlike_margins;

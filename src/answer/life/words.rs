@@ -167,6 +167,15 @@ impl LifeAnswer<'_> {
                 }
             ));
         }
+        if let Some(c) = &self.service.core {
+            all.push(format!(
+                "Core below the case, {} deep: {} cycles at a shear of {}, exponent {}, as drawn",
+                Unit::Millimetre.show(c.depth_m, 3),
+                significant(c.cycles, 4),
+                Unit::Megapascal.show(c.shear_pa, 4),
+                significant(c.exponent, 4)
+            ));
+        }
         all.extend(self.wear_remark());
         for s in &self.swung {
             all.push(format!(
