@@ -117,6 +117,7 @@ const TYPICAL: &[(&str, &str)] = &[
     ("sharing.gap_up_to_um", "0 … 10"),
     ("sharing.sprags[].ahead_deg", "-2 … 2"),
     ("sharing.sprags[].friction", "0.05 … 0.12"),
+    ("sharing.sprags[].spring_factor", "0 … 1"),
     ("sharing.tracks[].amplitude_um", "1 … 10"),
     ("sharing.tracks[].azimuth_deg", "0 … 90"),
     ("sharing.tracks[].lobes", "2 … 5"),

@@ -1,7 +1,7 @@
 //! What sets the sprags of a design apart, in words.
 
 use crate::clutch::{Sharing, Standing};
-use crate::report::Unit;
+use crate::report::{Unit, significant};
 
 /// What chance draws, what the file gives, and how the sprags stand when torque begins, a line each.
 pub(super) fn drawn_words(sharing: &Sharing) -> Vec<String> {
@@ -23,6 +23,17 @@ pub(super) fn drawn_words(sharing: &Sharing) -> Vec<String> {
         all.push(format!(
             "As the file gives them, not drawn: what [sharing] says of sprags {}",
             given.join(", ")
+        ));
+    }
+    let sprung: Vec<String> = sharing
+        .given
+        .iter()
+        .filter_map(|g| Some(format!("{} ({})", g.index + 1, significant(g.spring?, 3))))
+        .collect();
+    if !sprung.is_empty() {
+        all.push(format!(
+            "Springs over that as drawn: {}; scenes feel that, statics does not: a sprag that catches nothing is to be missing there",
+            sprung.join(", ")
         ));
     }
     all.extend(sharing.tracks.iter().map(|track| {

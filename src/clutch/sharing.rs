@@ -87,6 +87,8 @@ pub struct GivenSprag {
     pub gap_m: Option<f64>,
     /// Its static friction.
     pub friction: Option<f64>,
+    /// Stiffness of its spring over that of the drawing, by which its moment is weaker or stronger in a scene.
+    pub spring: Option<f64>,
     /// How far it stands ahead of its even place, rad.
     pub azimuth_rad: Option<f64>,
     /// Whether it is not there, or broken.

@@ -94,7 +94,8 @@ pub struct Model {
     pub(super) count: f64,
     pub(super) mass_kg: f64,
     pub(super) inertia_kg_m2: f64,
-    pub(super) spring_nm_per_rad: f64,
+    /// Stiffness of the spring of one sprag, N m/rad.
+    pub spring_nm_per_rad: f64,
     pub(super) inner_inertia_kg_m2: f64,
     pub(super) outer_inertia_kg_m2: f64,
     pub(super) damping_nm_s_per_rad: f64,
@@ -203,6 +204,11 @@ impl Model {
     /// The same for `count` of its sprags alone, on their own curve and with their own friction.
     pub fn of_sprags(&self, count: usize, curve: WedgeCurve, friction: Stribeck) -> Self {
         Self { curve, friction, count: count as f64, ..self.clone() }
+    }
+
+    /// The same with springs `factor` times as stiff, turned to the same alpha_max: each moment times that.
+    pub fn with_spring(self, factor: f64) -> Self {
+        Self { spring_nm_per_rad: factor * self.spring_nm_per_rad, ..self }
     }
 
     /// Geometry and normal force at `alpha` with the functions of `place`.

@@ -100,6 +100,9 @@ pub(super) struct GivenSpragFile {
     /// Its static friction.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub friction: Option<f64>,
+    /// Stiffness of its spring over that of the drawing, whose moment it presses with so much weaker or stronger in a scene; 0: broken.
+    #[schemars(extend("minimum" = 0, "maximum" = 10))]
+    pub spring_factor: Option<f64>,
     /// How far it stands ahead of its even place, deg.
     #[schemars(extend("minimum" = -60, "maximum" = 60))]
     pub ahead_deg: Option<f64>,
@@ -196,6 +199,7 @@ pub(super) fn si(
         size_m: s.size_um.map(um),
         gap_m: s.gap_um.map(um),
         friction: s.friction,
+        spring: s.spring_factor,
         azimuth_rad: s.ahead_deg.map(f64::to_radians),
         missing: s.missing,
     };

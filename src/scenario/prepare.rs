@@ -102,7 +102,9 @@ impl Prepared {
     /// Start in overrun of the sprags of another `model` of the scene; `None` where it does not begin so.
     pub fn overrun_of(&self, model: &Model) -> Option<(State, Mode)> {
         let free = self.free_run.as_ref()?;
-        Some(overrunning(&free.steady(model, &model.friction), model, free.speed_rad_s))
+        let mut sprung = free.clone();
+        sprung.clutch.spring.stiffness_nm_per_rad = model.spring_nm_per_rad;
+        Some(overrunning(&sprung.steady(model, &model.friction), model, free.speed_rad_s))
     }
 
     /// The equilibrium at the start of a static scenario, exact; `None` without a load.

@@ -14,6 +14,8 @@ pub struct OneSprag {
     pub gap_m: f64,
     /// Static friction of its contacts.
     pub friction: f64,
+    /// Stiffness of its spring over that as drawn.
+    pub spring: f64,
     /// Whether it is not there.
     pub missing: bool,
 }
@@ -31,6 +33,7 @@ pub fn drawn(sharing: &Sharing, count: usize, friction: f64) -> Vec<OneSprag> {
                 size_m: either_way(size, sharing.size_within_m),
                 gap_m: gap * sharing.gap_up_to_m,
                 friction: friction + either_way(rubs, sharing.friction_within),
+                spring: 1.0,
                 missing: false,
             }
         })
@@ -43,6 +46,7 @@ pub fn drawn(sharing: &Sharing, count: usize, friction: f64) -> Vec<OneSprag> {
             size_m: given.size_m.unwrap_or(sprag.size_m),
             gap_m: given.gap_m.unwrap_or(sprag.gap_m),
             friction: given.friction.unwrap_or(sprag.friction),
+            spring: given.spring.unwrap_or(sprag.spring),
             missing: given.missing,
         };
     }

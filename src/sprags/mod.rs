@@ -4,7 +4,7 @@
 //! Equations: those of [`crate::dynamics::run_many`].
 //!
 //! Every sprag has its own curve (its size, and its tracks where they are out of round as made), its own friction (static and kinetic in one ratio) and its own lag (its
-//! gap, or its size where a cage holds all), drawn and given as for statics. An inner track out of round turns with its race. Where the axes of the races do not meet,
+//! gap, or its size where a cage holds all), its own spring, drawn and given as for statics. An inner track out of round turns with its race. Where the axes of the races do not meet,
 //! or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the races bend
 //! under sprags unlike one another ([`Rings`]), without inertia. A cage that the inner race drives carries them where the axes meet and are
 //! held; each has its own way to the stop from where it touches both races.
@@ -219,7 +219,7 @@ impl Many {
         let key = |i: usize| {
             (
                 made_bits(&unlike, i),
-                unlike.sprags[i].friction.to_bits(),
+                [unlike.sprags[i].friction, unlike.sprags[i].spring].map(f64::to_bits),
                 lag(i).map(f64::to_bits),
                 (apart || bends || axes.is_some()).then_some(i),
             )
@@ -246,7 +246,7 @@ impl Many {
             let kinetic = law.kinetic * (sprag.friction / law.static_);
             let friction = Stribeck { static_: sprag.friction, kinetic, ..law };
             let count = group.iter().filter(|of| **of == Some(g)).count();
-            let mut model = alike.model.of_sprags(count, own, friction);
+            let mut model = alike.model.of_sprags(count, own, friction).with_spring(sprag.spring);
             if let Some((cage, touch)) = &touch
                 && made_bits(&unlike, i) != [0; 3]
             {
@@ -270,6 +270,7 @@ impl Many {
         let even = axes.is_none()
             && able.len() == unlike.sprags.len()
             && groups.iter().all(|g| g.lag_rad.is_none())
+            && unlike.sprags.iter().all(|s| s.spring == 1.0)
             && (0..unlike.sprags.len()).all(|i| made_bits(&unlike, i) == [0; 3])
             && (rings.is_none()
                 || (0..unlike.sprags.len()).all(|i| unlike.sprags[i].azimuth_rad == even_rad(&unlike, i)));
@@ -364,6 +365,7 @@ fn uneven(unlike: &Unlike<'_>) -> bool {
             || made_bits(unlike, i) != made_bits(unlike, 0)
             || s.gap_m != first.gap_m
             || s.friction != first.friction
+            || s.spring != first.spring
             || s.azimuth_rad != even_rad(unlike, i)
     })
 }

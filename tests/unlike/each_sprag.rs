@@ -6,6 +6,7 @@ use sprag_design::dynamics::{ManySample, RunSettings, Sample, SpragCourse, Stop,
 use sprag_design::scenario::{Settings, prepare};
 use sprag_design::sharing::{Asked, Bears, Unlike};
 use sprag_design::sprags::{EachSprag, Many, each_sprag};
+use sprag_design::wedge::{SpragDeviation, StaticPoint};
 use sprag_design::{Design, WedgeCurve};
 
 /// Scenes of all designs with the sprags one by one: one for all, and every sprag by itself. Slip, lift-off, junctions, speed, damped
@@ -82,8 +83,40 @@ fn unlike() -> Sharing {
     Sharing { given: vec![late], ..Sharing::default() }
 }
 
+/// Springs half as stiff, each by itself, are those of a clutch with such springs and half the drag, which leaves alpha_max where it was:
+/// from an overrun, from a preload; and a weak one among others is pressed less in the overrun.
+#[test]
+fn weak_springs_are_those_of_a_clutch_with_such_springs() {
+    let weak = |index: usize| GivenSprag { index, spring: Some(0.5), ..GivenSprag::default() };
+    for name in ["engagement", "low-6"] {
+        let file = if name == "engagement" { "huang2017-bench" } else { "huang2017-multi-arc" };
+        let given = scene(file, name);
+        let mut made = given.clone();
+        made.clutch.spring.stiffness_nm_per_rad *= 0.5;
+        made.clutch.spring.drag_torque_nm *= 0.5;
+        let all = Sharing { given: (0..given.clutch.sprags.count).map(weak).collect(), ..Sharing::default() };
+        let [a, b] = [(&given, &all), (&made, &Sharing::default())]
+            .map(|(scene, sharing)| Many::new(scene, sharing, false).unwrap());
+        assert_eq!([a.groups.len(), b.groups.len()], [1, 1]);
+        let [ran, wanted] = [&a, &b].map(|many| many.run(&Settings::default(), 1e-11, 51));
+        assert_eq!(ran.stop, Stop::Finished);
+        let apart = ran.samples.iter().zip(&wanted.samples).map(|(a, b)| (a.races[0] - b.races[0]).abs());
+        let apart = apart.fold(0.0, f64::max);
+        let turned = wanted.samples.iter().map(|s| s.races[0].abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-8 * turned, "{name}: {apart:e} of {turned}");
+        let one = Sharing { given: vec![weak(3)], ..Sharing::default() };
+        let one = Many::new(&given, &one, false).unwrap();
+        assert_eq!(one.groups.len(), 2);
+        if name == "engagement" {
+            let alpha = |g: usize| one.start.sprags[g][0] - one.groups[g].model.curve.first_contact_rad();
+            let weak = one.group[3].unwrap();
+            assert!(alpha(weak) < alpha(1 - weak), "{} {}", alpha(weak), alpha(1 - weak));
+        }
+    }
+}
+
 /// Two kinds of sprags without inertia, both rolling: theta_bi'' and theta_be'' under the sum of what each curve carries at its own
-/// alpha, alpha' = (theta_be' - theta_bi')/(rho_i + rho_e), by Runge-Kutta steps of fixed length.
+/// alpha, alpha' = (theta_be' - theta_bi')/(rho_i + rho_e), by Runge-Kutta steps of fixed length. The spring of one is weak.
 #[test]
 fn two_kinds_of_sprags_that_roll_are_two_springs_between_the_races() {
     let mut scene = scene("huang2017-multi-arc", "low-6");
@@ -92,7 +125,9 @@ fn two_kinds_of_sprags_that_roll_are_two_springs_between_the_races() {
     scene.clutch.sprags.inertia_kg_m2 *= 1e-4;
     let ScenarioKind::TorsionalExcitation { duration_s, .. } = &mut scene.kind else { panic!() };
     *duration_s = 0.05;
-    let many = Many::new(&scene, &unlike(), false).unwrap();
+    let mut sharing = unlike();
+    sharing.given[0].spring = Some(0.4);
+    let many = Many::new(&scene, &sharing, false).unwrap();
     assert_eq!(many.groups.len(), 2);
     let all = many.run(&Settings::default(), 1e-11, 2);
     assert_eq!(all.stop, Stop::Finished);
@@ -106,6 +141,7 @@ fn two_kinds_of_sprags_that_roll_are_two_springs_between_the_races() {
             let p = curve.in_arc(curve.arc_at(y[4 + g]), y[4 + g]);
             let rho = p.rho_i + p.rho_e;
             let count = many.group.iter().filter(|of| **of == Some(g)).count() as f64;
+            let spring = if count == 1.0 { 0.4 * spring } else { spring };
             torque += count * (p.t_static * p.oa - spring * (group.model.alpha_max_rad - y[4 + g]) / rho);
             out[4 + g] = (y[3] - y[2]) / rho;
         }
@@ -407,4 +443,29 @@ fn scenes_that_cannot_be_run_are_refused_with_what_to_do() {
     // One that is left does not carry what the scene begins with.
     let alone = Sharing { given: (1..12).map(gone).collect(), ..Sharing::default() };
     assert!(refused("huang2017-multi-arc", "rated-45", &alone).contains("comes to its end before 45"));
+}
+
+/// Radii larger by so much about the centres as drawn act as a sprag that measures more: on angle and force by two thirds of that, on windup
+/// by three quarters, on pressure, which the curvature lowers, by half.
+#[test]
+fn larger_radii_act_as_a_larger_size() {
+    let more_m = 3e-6;
+    let clutch = scene("huang2017-multi-arc", "low-6").clutch;
+    let mut made = clutch.clone();
+    made.sprags.inner_arcs.iter_mut().for_each(|arc| arc.radius_m += more_m);
+    let [drawn, made] = [clutch, made].map(|c| WedgeCurve::build(&c, &c.profile().unwrap(), 0.0).unwrap());
+    let larger = drawn.of_sprag(SpragDeviation { size_m: more_m, ..SpragDeviation::default() }).unwrap();
+    let [drawn, made, larger] = [drawn, made, larger].map(|c| c.at_torque(90.0).unwrap());
+    let part = |read: fn(&StaticPoint) -> f64| {
+        (read(&made) / read(&drawn) - 1.0) / (read(&larger) / read(&drawn) - 1.0)
+    };
+    let parts = [
+        part(|p| p.tan_omega),
+        part(|p| p.normal_inner_n),
+        part(|p| p.windup_rad),
+        part(|p| p.hertz_inner_pa),
+    ];
+    for (found, told) in parts.into_iter().zip([0.66, 0.66, 0.76, 0.47]) {
+        assert!((found - told).abs() < 0.02, "{parts:?}");
+    }
 }
