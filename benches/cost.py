@@ -53,6 +53,7 @@ def measured(points, nothing):
         "rows of the load state": of(r"smooth::load_rows$", r"margin::load_rows$", r"margin::load_margins$", r"margin::load::rows$"),
         "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - max(curves - with_state, 0.0), 0.0),
         "pure-rolling runs": of(r"demand::roll$") or of(r"rolling::rolling$") + of(r"rolling::rolling_tracked$"),
+        "runs where no friction suffices": of(r"demand::bisect$", r"demand::bisected$"),
     }
     if not any(phases.values()):
         sys.exit("cost.py: no function of this program by name: build with CARGO_PROFILE_RELEASE_STRIP=none")

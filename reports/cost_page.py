@@ -197,7 +197,7 @@ def phase_names():
 
 # Shorter, and which is which of the issue's own words.
 NAMES = {"the file: values put in, read": "file", "curves": "curves", "rows of the load state": "margins at rest",
-         "scenes made ready, without curves": "scenes made ready", "pure-rolling runs": "scenes run", "all else": "rest"}
+         "scenes made ready, without curves": "scenes made ready", "pure-rolling runs": "scenes run", "runs where no friction suffices": "scenes run again", "all else": "rest"}
 
 
 def phases():
@@ -214,7 +214,7 @@ def phases():
         row = [NAMES.get(n, n)] + [f"{at[law, who] / 1e6:.2f}" for law in LAWS for who in WHO]
         row += [f"{100 * at[law, 'now'] / F('phases', law, 'now', '', 'whole'):.1f} %" for law in LAWS]
         if BEFORE:
-            row += [f"{at[law, 'before'] / at[law, 'now']:.1f}" for law in LAWS]
+            row += [f"{at[law, 'before'] / at[law, 'now']:.1f}" if at[law, "now"] > 0.0 else "–" for law in LAWS]
         rows.append(row)
     said = [f"{LAWS[law]}: {millions(F('phases', law, 'now', '', 'whole'))} M instructions"
             + (f" where {millions(F('phases', law, 'before', '', 'whole'))} M were needed, {gain(law):.1f} times fewer" if BEFORE else "")
