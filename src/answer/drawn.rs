@@ -32,7 +32,7 @@ pub(super) fn drawn_words(sharing: &Sharing) -> Vec<String> {
         .collect();
     if !sprung.is_empty() {
         all.push(format!(
-            "Springs over that as drawn: {}; scenes feel that, statics does not: a sprag that catches nothing is to be missing there",
+            "Springs over that as drawn: {}; scenes feel that; for statics set missing = true for a sprag that does not catch",
             sprung.join(", ")
         ));
     }

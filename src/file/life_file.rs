@@ -121,7 +121,7 @@ pub(super) struct CoreFile {
     /// Load cycles at it, with the reliability that the life shall have.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub cycles: f64,
-    /// Exponent of the shear; absent: 20/3, that of the pressure in ISO 281 for line contacts.
+    /// Exponent of the shear; absent: 20/3, as of the pressure at the surface.
     #[serde(default = "line_contact")]
     #[schemars(extend("minimum" = 1, "maximum" = 50))]
     pub exponent: f64,

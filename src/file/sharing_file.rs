@@ -100,7 +100,7 @@ pub(super) struct GivenSpragFile {
     /// Its static friction.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub friction: Option<f64>,
-    /// Stiffness of its spring over that of the drawing, whose moment it presses with so much weaker or stronger in a scene; 0: broken.
+    /// Stiffness, and so moment, of its spring over that of the drawing, felt in scenes only; 0: broken.
     #[schemars(extend("minimum" = 0, "maximum" = 10))]
     pub spring_factor: Option<f64>,
     /// How far it stands ahead of its even place, deg.

@@ -368,6 +368,9 @@ pub fn identify(
             (knowledge.estimates[j].value, named[j].1) = (value, value);
         }
     }
+    if stopped() {
+        return Err(problem.stopped());
+    }
     let source = design_with(design, &[], &named).map_err(|e| nowhere(e.to_string()))?.source;
     Ok(Identified {
         unknowns: unknowns.to_vec(),

@@ -3,6 +3,7 @@
 use super::Margin;
 use super::limits::{Limit, Of, When};
 use super::load::{LoadCase, LoadState, clearances_m, profile_capacity};
+use super::pressed::tops;
 use super::sprag::grip;
 use super::table::{END_OF_PROFILE, GRIP_INNER, LIMITS};
 use crate::design::{Design, Limits};
@@ -14,6 +15,13 @@ struct Bounded<'a> {
     limit: &'static Limit,
     allowed: f64,
     demand: Box<dyn Fn(&StaticPoint) -> f64 + 'a>,
+}
+
+impl Bounded<'_> {
+    /// Torque at which the limit is reached, N m.
+    fn reached(&self, state: &LoadState) -> f64 {
+        torque_where(state, self.allowed, self.limit.pressed, &*self.demand)
+    }
 }
 
 /// The same of `limit`, where it depends on torque and `case` asks for it.
@@ -47,7 +55,7 @@ pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state:
         row.torque_capacity_nm = match row.limit.of {
             Of::RollOver => Some(row.allowable),
             _ if row.limit == &END_OF_PROFILE => Some(profile_capacity(state)),
-            _ => bounded(case, row.limit).map(|b| torque_where(state, b.allowed, &*b.demand)),
+            _ => bounded(case, row.limit).map(|b| b.reached(state)),
         };
     }
 }
@@ -82,16 +90,22 @@ pub fn courses(
 
 /// Smallest normal force at which the quantity rises to `allowed`, as a torque; the end of the curve if it never
 /// does. Stresses grow with the normal force; tan omega too, on a profile that steepens. The friction for an axial
-/// load falls from infinity first: what counts is where it rises again, and where it was never low enough, 0.
-fn torque_where(state: &LoadState, allowed: f64, value: &dyn Fn(&StaticPoint) -> f64) -> f64 {
+/// load falls from infinity first: what counts is where it rises again, and where it was never low enough, 0. Of what the inner contact's
+/// pressure decides (`pressed`) the tops of that are looked at too.
+fn torque_where(state: &LoadState, allowed: f64, pressed: bool, value: &dyn Fn(&StaticPoint) -> f64) -> f64 {
     let curve = &state.curve;
     let last = curve.arc_end_n(curve.arc_count() - 1);
     let miss = |n: f64| curve.at_normal(n).map_or(f64::NAN, |p| value(&p) - allowed);
     let torque = |n: f64| curve.at_normal(n).map_or(0.0, |p| p.torque_nm);
     const LOOKS: usize = 64;
     let (mut a, mut fa) = (1e-6 * last, miss(1e-6 * last));
-    for i in 1..=LOOKS {
-        let b = last * i as f64 / LOOKS as f64;
+    let mut looks: Vec<f64> = (1..=LOOKS).map(|i| last * i as f64 / LOOKS as f64).collect();
+    if pressed {
+        let tops = tops(state, last).into_iter().map(|(_, top)| top.normal_inner_n);
+        looks.extend(tops.filter(|n| (a..last).contains(n)));
+        looks.sort_by(f64::total_cmp);
+    }
+    for b in looks {
         let fb = miss(b);
         if fa < 0.0 && fb >= 0.0 {
             return root::bracketed(a, b, fa, fb, 1e-10 * last, miss).map_or(torque(b), torque);
@@ -151,10 +165,9 @@ pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> 
     if !all().any(|b| nominal(&b)) {
         return None;
     }
-    let grips = |b: &Bounded| b.limit.is_grip();
-    let reached = all()
-        .filter(|b| nominal(b) || grips(b))
-        .map(|b| (torque_where(state, b.allowed, &*b.demand), b.limit.code));
+    // Limits of which states on the way count are those of the grip.
+    let grips = |b: &Bounded| matches!(b.limit.of, Of::Sprag { below_torque: Some(_), .. });
+    let reached = all().filter(|b| nominal(b) || grips(b)).map(|b| (b.reached(state), b.limit.code));
     let end = (state.curve.end_torque_nm(), "end-of-curve");
     Some(reached.fold(end, |least, found| if found.0 < least.0 { found } else { least }))
 }

@@ -1,16 +1,15 @@
 //! What a limit is; the list of them is in `table`.
 
-use super::load::{LOOKS, LoadCase, LoadState};
+use super::load::LoadCase;
 use super::row::Rule;
 use super::table::LIMITS;
 use crate::design::{Design, Limits};
-use crate::numeric::golden::top;
 use crate::wedge::StaticPoint;
 
 /// When a limit is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum When {
-    /// At the nominal torque.
+    /// At the nominal torque, or up to it.
     Nominal,
     /// At the peak torque, or up to it.
     Peak,
@@ -47,9 +46,6 @@ impl When {
 /// Allowable of a limit, SI; `None`: not checked.
 type Allowed = fn(&Design, &Limits) -> Option<f64>;
 
-/// Pressure of the contact that a limit is of, Pa.
-type Pressed = fn(&StaticPoint) -> f64;
-
 /// What is demanded. Of the first three the table says all; the others are rows of their own in the file named.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Of {
@@ -66,13 +62,11 @@ pub(super) enum Of {
         /// Allowable beside which the row is shown only, where its own is not given.
         beside: Option<fn(&Limits) -> Option<f64>>,
         demand: fn(&LoadCase, &StaticPoint) -> f64,
-        pressed: Option<Pressed>,
     },
     /// Shear below a contact, Pa, and how deep it is largest, m.
     Shear {
         allowed: Allowed,
         below: fn(&LoadCase, &StaticPoint) -> (f64, f64),
-        pressed: Pressed,
     },
     // load.rs
     RollOver,
@@ -106,7 +100,7 @@ impl Of {
     }
 
     pub const fn clutch(allowed: Allowed, demand: fn(&LoadCase, &StaticPoint) -> f64) -> Self {
-        Self::Clutch { allowed, beside: None, demand, pressed: None }
+        Self::Clutch { allowed, beside: None, demand }
     }
 
     pub const fn beside(
@@ -114,20 +108,11 @@ impl Of {
         allowed: Allowed,
         demand: fn(&LoadCase, &StaticPoint) -> f64,
     ) -> Self {
-        Self::Clutch { allowed, beside: Some(other), demand, pressed: None }
+        Self::Clutch { allowed, beside: Some(other), demand }
     }
 
-    /// Along a contact: the state on the way counts too at which that is `pressed` most.
-    pub const fn along(demand: fn(&LoadCase, &StaticPoint) -> f64, pressed: Pressed) -> Self {
-        Self::Clutch { allowed: |_, l| l.along_pa, beside: None, demand, pressed: Some(pressed) }
-    }
-
-    pub const fn shear(
-        allowed: Allowed,
-        below: fn(&LoadCase, &StaticPoint) -> (f64, f64),
-        pressed: Pressed,
-    ) -> Self {
-        Self::Shear { allowed, below, pressed }
+    pub const fn shear(allowed: Allowed, below: fn(&LoadCase, &StaticPoint) -> (f64, f64)) -> Self {
+        Self::Shear { allowed, below }
     }
 }
 
@@ -152,6 +137,8 @@ pub struct Limit {
     pub formula: &'static str,
     /// Where that comes from: equation, textbook, standard.
     pub source: &'static str,
+    /// Whether the state on the way to its torque counts too in which the inner contact is pressed most.
+    pub(super) pressed: bool,
     /// Whether to reach it is to reach the end of the static curve.
     pub ends_curve: bool,
     pub(super) of: Of,
@@ -205,17 +192,12 @@ impl Limit {
 
     /// The demand at `peak`, or at one of the states `below` where one of those is larger, SI.
     pub(super) fn largest(&self, case: &LoadCase, peak: &StaticPoint, below: &[StaticPoint]) -> Option<f64> {
-        let (grip, pressed) = match self.of {
-            Of::Sprag { below_torque, .. } if self.is_grip() => (below_torque, None),
-            Of::Sprag { below_torque, .. } => (None, below_torque),
-            Of::Clutch { pressed, .. } => (None, pressed),
-            Of::Shear { pressed, .. } => (None, Some(pressed)),
-            _ => (None, None),
+        let below_torque = match self.of {
+            Of::Sprag { below_torque, .. } => below_torque,
+            _ => None,
         };
-        let lower = grip.into_iter().flat_map(|demand| below.iter().map(demand));
-        let most_pressed = pressed.and_then(|pa| most_pressed(case.state, peak, below, pa));
-        let there = most_pressed.and_then(|p| self.demand(case, &p));
-        self.demand(case, peak).map(|at_peak| lower.chain(there).fold(at_peak, f64::max))
+        let lower = below_torque.into_iter().flat_map(|demand| below.iter().map(demand));
+        self.demand(case, peak).map(|at_peak| lower.fold(at_peak, f64::max))
     }
 
     /// Name of its row at a static state.
@@ -230,22 +212,6 @@ impl Limit {
             _ => name.to_owned(),
         }
     }
-}
-
-/// The state on the way to `peak`, next to one of those `below`, in which a contact is pressed most; `None` where that is less than at the
-/// peak: nothing of the contact is larger then.
-fn most_pressed(
-    state: &LoadState,
-    peak: &StaticPoint,
-    below: &[StaticPoint],
-    pressed: Pressed,
-) -> Option<StaticPoint> {
-    let more = below.iter().filter(|p| pressed(p) > pressed(peak));
-    let near = more.max_by(|a, b| pressed(a).total_cmp(&pressed(b)))?;
-    let (at_n, step_n) = (near.normal_inner_n, peak.normal_inner_n / LOOKS as f64);
-    let there = |n: f64| state.curve.at_normal(n);
-    let top_n = top(at_n - step_n, at_n + step_n, |n| there(n).map_or(0.0, |p| pressed(&p)));
-    there(top_n).filter(|p| pressed(p) > pressed(near)).or(Some(*near))
 }
 
 /// The limit with that code, such as `hoop-inner`, `slip` or `run-out-hertz-peak-inner`.

@@ -4,10 +4,12 @@ use super::NoMargins;
 use super::capacity::axial_from_nm;
 use super::limits::{Limit, Of, When};
 use super::overrun::{overrun_at, overrun_moments};
+use super::pressed::most_pressed;
 use super::row::{BeyondEnd, Demand, Margin};
 use super::table::LIMITS;
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
+use crate::numeric::rounded;
 use crate::profile::{self, Outline, Profile};
 use crate::scenario::AtRest;
 use crate::wedge::{AtSpeed, AtSpeeds, Effort, Elastic, EndReason, StaticPoint, Statics, WedgeCurve};
@@ -138,6 +140,8 @@ struct Reached {
     /// Numbers of the looks at states below it, and these, rising.
     looks: Vec<usize>,
     below: Vec<StaticPoint>,
+    /// The one below it in which the inner contact is pressed most, where that is more than at it, with the number of the look beside it.
+    pressed: Option<(usize, StaticPoint)>,
 }
 
 impl Reached {
@@ -145,7 +149,8 @@ impl Reached {
         let end_nm = case.state.curve.end_torque_nm();
         let p = at(&case.state.curve, carried(torque_nm, end_nm));
         let (looks, below) = below(case.state, &p).unzip();
-        Self { torque_nm, end_nm, p, looks, below }
+        let pressed = most_pressed(case.state, &p);
+        Self { torque_nm, end_nm, p, looks, below, pressed }
     }
 
     /// A demand at this state.
@@ -218,6 +223,8 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> LoadR
         _ => unloaded_row(&case, limit),
     };
     let rows = LIMITS.iter().filter_map(&mut row).collect();
+    let on_the_way = [&nominal, &peak].into_iter().flatten().filter_map(|reached| reached.pressed);
+    deciding.extend(on_the_way.map(|(look, _)| look));
     LoadRows { rows, deciding }
 }
 
@@ -229,7 +236,7 @@ fn loaded_row(
     deciding: &mut Vec<usize>,
 ) -> Option<Margin> {
     let LoadCase { design, limits, state } = *case;
-    let Reached { torque_nm, end_nm, p, ref looks, ref below } = *reached;
+    let Reached { torque_nm, end_nm, p, ref looks, ref below, pressed } = *reached;
     let name = (limit.name)(limits);
     match limit.of {
         Of::RollOver => Some(reached.row(limit, name, torque_nm, state.curve.roll_over_torque_nm())),
@@ -259,7 +266,18 @@ fn loaded_row(
                 let is_largest = |at: &StaticPoint| limit.largest(case, &p, &[*at]) == Some(value);
                 deciding.extend(looks.iter().zip(below).find(|(_, at)| is_largest(at)).map(|(i, _)| i));
             }
-            let name = limit.name_at(case, required, &p);
+            let (value, at) = match pressed.filter(|_| limit.pressed) {
+                Some((_, on_the_way)) => match limit.demand(case, &on_the_way)? {
+                    more if more > value => (more, on_the_way),
+                    _ => (value, p),
+                },
+                None => (value, p),
+            };
+            let name = limit.name_at(case, required, &at);
+            let name = match at.torque_nm < p.torque_nm {
+                true => format!("{name}; largest on the way, at {} Nm", rounded(at.torque_nm, 4)),
+                false => name,
+            };
             Some(Margin { required, ..reached.row(limit, &name, value, allowed) })
         }
     }

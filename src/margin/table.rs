@@ -20,11 +20,13 @@ const PRESSURE: Limit = Limit {
     when: When::Nominal,
     rule: Rule::Ratio,
     explanation: "Largest pressure p_0 in the contact of one sprag with the race, by Hertz's line contact with the curvature \
-                  that the contact law averages over the patch, up to the torque: behind a junction to a larger radius it may have been \
-                  larger before. Larger radii of the arcs, longer or more sprags, or a larger wedge angle lower it.",
+                  that the contact law averages over the patch, the largest up to the torque: behind a junction to a far larger radius \
+                  it falls while the torque rises. Of single sprags and off centre it is that at the torque. Larger radii of the \
+                  arcs, longer or more sprags, or a larger wedge angle lower it.",
     formula: "p_0 = 2 N/(pi a l), a^2 = 4 N R/(pi l E*); 1/R = 1/r_i + 1/R_i inside, 1/r_e - 1/R_e outside; 1/E* = (1 - \
               nu_1^2)/E_1 + (1 - nu_2^2)/E_2",
     source: "Johnson, Contact Mechanics, (4.43) and (4.45)",
+    pressed: false,
     ends_curve: false,
     of: Of::Room,
 };
@@ -47,7 +49,7 @@ const ALONG: Limit = Limit {
                   is that of its last slice, and grows with contact.slices.",
     formula: "slices: [S_w]{q} = delta - gap, p_j = sqrt(q_j n E*/(pi R l)), R the one that p_0 = sqrt(N E*/(pi R l)) of the state has",
     source: "Huang 2017, (1)-(4), with end profile; Huang and others 2018 for the aim",
-    of: Of::along(|c, p| largest_pa(c, p, Side::Inner, Reach::Middle), |p| p.hertz_inner_pa),
+    of: Of::clutch(|_, l| l.along_pa, |c, p| largest_pa(c, p, Side::Inner, Reach::Middle)),
     ..PRESSURE
 };
 
@@ -78,7 +80,7 @@ const SHEAR: Limit = Limit {
                   pitting in the hardened case. What lowers the Hertz pressure lowers it.",
     formula: "tau = (p_0/a) (z - z^2/sqrt(a^2 + z^2)), largest at z = 0.786 a: 0.300 p_0",
     source: "Johnson, Contact Mechanics, (4.46)",
-    of: Of::shear(|_, l| l.case_shear_pa, |c, p| shear_below(c, inner(p), 0.0), |p| p.hertz_inner_pa),
+    of: Of::shear(|_, l| l.case_shear_pa, |c, p| shear_below(c, inner(p), 0.0)),
     ..PRESSURE
 };
 
@@ -88,7 +90,7 @@ const CORE: Limit = Limit {
                   bears it (Hertz's line contact). A deeper case or a lower pressure lowers it.",
     formula: "tau = (p_0/a) (z - z^2/sqrt(a^2 + z^2)) at z = the depth of the case or, where that is deeper, 0.786 a",
     source: "Johnson, Contact Mechanics, (4.46)",
-    of: Of::shear(core_allowed, |c, p| shear_below(c, inner(p), case_m(c)), |p| p.hertz_inner_pa),
+    of: Of::shear(core_allowed, |c, p| shear_below(c, inner(p), case_m(c))),
     ..SHEAR
 };
 
@@ -208,6 +210,7 @@ pub static FILM: Limit = Limit {
                   weaker spring raise it.",
     formula: "lambda = h/sqrt(Rq_sprag^2 + Rq_race^2), h = R U^(1/2) H(M, L), the film where the pressure is largest",
     source: "Moes' line contact (2000); see the command overrun",
+    pressed: false,
     ends_curve: false,
     of: Of::Film,
 };
@@ -260,14 +263,15 @@ const ROOM: Limit = Limit {
 pub static LIMITS: &[&Limit] = &[
     &Limit {
         code: "hertz-nominal-inner",
+        pressed: true,
         name: |_| "Hertz pressure, inner contact, nominal torque",
-        of: Of::sprag(|_, l| l.hertz_nominal_pa, |_, _, p| p.hertz_inner_pa, Some(|p| p.hertz_inner_pa)),
+        of: Of::sprag(|_, l| l.hertz_nominal_pa, |_, _, p| p.hertz_inner_pa, None),
         ..PRESSURE
     },
     &Limit {
         code: "hertz-nominal-outer",
         name: |_| "Hertz pressure, outer contact, nominal torque",
-        of: Of::sprag(|_, l| l.hertz_nominal_pa, |_, _, p| p.hertz_outer_pa, Some(|p| p.hertz_outer_pa)),
+        of: Of::sprag(|_, l| l.hertz_nominal_pa, |_, _, p| p.hertz_outer_pa, None),
         ..PRESSURE
     },
     &GAP,
@@ -317,10 +321,11 @@ pub static LIMITS: &[&Limit] = &[
     },
     &Limit {
         code: "hertz-peak-inner",
+        pressed: true,
         key: Some("hertz_peak_mpa"),
         name: |_| "Hertz pressure, inner contact, peak torque",
         when: When::Peak,
-        of: Of::sprag(|_, l| l.hertz_peak_pa, |_, _, p| p.hertz_inner_pa, Some(|p| p.hertz_inner_pa)),
+        of: Of::sprag(|_, l| l.hertz_peak_pa, |_, _, p| p.hertz_inner_pa, None),
         ..PRESSURE
     },
     &Limit {
@@ -328,7 +333,7 @@ pub static LIMITS: &[&Limit] = &[
         key: Some("hertz_peak_mpa"),
         name: |_| "Hertz pressure, outer contact, peak torque",
         when: When::Peak,
-        of: Of::sprag(|_, l| l.hertz_peak_pa, |_, _, p| p.hertz_outer_pa, Some(|p| p.hertz_outer_pa)),
+        of: Of::sprag(|_, l| l.hertz_peak_pa, |_, _, p| p.hertz_outer_pa, None),
         ..PRESSURE
     },
     &Limit {
@@ -369,25 +374,27 @@ pub static LIMITS: &[&Limit] = &[
     },
     &Limit {
         code: "along-middle-inner",
+        pressed: true,
         name: |_| "pressure along the inner contact, its middle half, peak torque",
         ..ALONG
     },
     &Limit {
         code: "along-ends-inner",
+        pressed: true,
         name: |_| "pressure along the inner contact, towards its ends, peak torque",
-        of: Of::along(|c, p| largest_pa(c, p, Side::Inner, Reach::Ends), |p| p.hertz_inner_pa),
+        of: Of::clutch(|_, l| l.along_pa, |c, p| largest_pa(c, p, Side::Inner, Reach::Ends)),
         ..ALONG
     },
     &Limit {
         code: "along-middle-outer",
         name: |_| "pressure along the outer contact, its middle half, peak torque",
-        of: Of::along(|c, p| largest_pa(c, p, Side::Outer, Reach::Middle), |p| p.hertz_outer_pa),
+        of: Of::clutch(|_, l| l.along_pa, |c, p| largest_pa(c, p, Side::Outer, Reach::Middle)),
         ..ALONG
     },
     &Limit {
         code: "along-ends-outer",
         name: |_| "pressure along the outer contact, towards its ends, peak torque",
-        of: Of::along(|c, p| largest_pa(c, p, Side::Outer, Reach::Ends), |p| p.hertz_outer_pa),
+        of: Of::clutch(|_, l| l.along_pa, |c, p| largest_pa(c, p, Side::Outer, Reach::Ends)),
         ..ALONG
     },
     &Limit {
@@ -404,24 +411,26 @@ pub static LIMITS: &[&Limit] = &[
     },
     &Limit {
         code: "subsurface-inner",
+        pressed: true,
         name: |_| "largest shear below the inner contact, peak torque",
         ..SHEAR
     },
     &Limit {
         code: "subsurface-outer",
         name: |_| "largest shear below the outer contact, peak torque",
-        of: Of::shear(|_, l| l.case_shear_pa, |c, p| shear_below(c, outer(p), 0.0), |p| p.hertz_outer_pa),
+        of: Of::shear(|_, l| l.case_shear_pa, |c, p| shear_below(c, outer(p), 0.0)),
         ..SHEAR
     },
     &Limit {
         code: "subsurface-core-inner",
+        pressed: true,
         name: |_| "largest shear beneath the case at the inner contact, peak torque",
         ..CORE
     },
     &Limit {
         code: "subsurface-core-outer",
         name: |_| "largest shear beneath the case at the outer contact, peak torque",
-        of: Of::shear(core_allowed, |c, p| shear_below(c, outer(p), case_m(c)), |p| p.hertz_outer_pa),
+        of: Of::shear(core_allowed, |c, p| shear_below(c, outer(p), case_m(c))),
         ..CORE
     },
     &END_OF_PROFILE,

@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use crate::design::{Design, Limits, Objective};
-use crate::margin::{LIFT_OFF_TO_RAD_S, LoadState, Margin, When, lift_off_rad_s, overrun_at};
+use crate::margin::{
+    LIFT_OFF_TO_RAD_S, LoadState, Margin, When, largest_inner_pa, lift_off_rad_s, overrun_at,
+};
 
 const RPM_PER_RAD_S: f64 = 30.0 / PI;
 
@@ -130,12 +132,13 @@ pub(super) fn measures(
     }
 }
 
-/// (p_0 inner Pa, p_0 outer Pa, windup rad) at `torque`, or at the curve's end; and by what the torque lies beyond.
+/// (largest p_0 inner up to there, Pa, p_0 outer Pa, windup rad) at `torque`, or at the curve's end; and by what the torque lies beyond.
 fn at(state: &LoadState, torque: f64) -> ((f64, f64, f64), f64) {
     let curve = &state.curve;
     let last = curve.arc_end_n(curve.arc_count() - 1);
     let end = curve.end_torque_nm();
     let point = curve.at_torque(torque).or_else(|| curve.at_normal(last));
-    let point = point.map_or((0.0, 0.0, 0.0), |p| (p.hertz_inner_pa, p.hertz_outer_pa, p.windup_rad));
+    let point =
+        point.map_or((0.0, 0.0, 0.0), |p| (largest_inner_pa(state, &p), p.hertz_outer_pa, p.windup_rad));
     (point, if torque > end && end > 0.0 { torque / end } else { 1.0 })
 }

@@ -105,8 +105,8 @@ fn two_allowables(rows: &[Margin]) -> Option<String> {
     let [nominal, peak] = [nominal, peak].map(|mpa| significant(mpa, 4));
     (nominal != peak).then(|| {
         format!(
-            "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) at nominal torque, which comes again \
-             and again; {peak} MPa (hertz_peak_mpa) at peak torque and in scenes, which come seldom"
+            "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) up to nominal torque, which comes again \
+             and again; {peak} MPa (hertz_peak_mpa) up to peak torque and in scenes, which come seldom"
         )
     })
 }

@@ -146,7 +146,7 @@ fn silent(found: &Identified, name: &str) -> String {
     let bound = bound.map_or(String::new(), |j| {
         let (value, before) = (found.knowledge.estimates[j].value, found.before[j]);
         let side = if value > before { "below" } else { "above" };
-        format!(", but that {side} {} they are no longer met as well", significant(value, 4))
+        format!("; {side} {} they are met less well, and nothing is to spare there", significant(value, 4))
     });
     format!("the data say nothing of {name}{bound}")
 }

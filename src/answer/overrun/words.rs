@@ -384,7 +384,7 @@ impl OverrunAnswer<'_> {
                 Unit::NewtonMetre.show(case.torque_nm, 4)
             ));
         }
-        if l.slip_heat_w > 0.0 {
+        if l.slip_heat_w > 0.0 && l.heat_balance {
             all.push(format!(
                 "Of the heat {} is that of slips (lubrication.slip_heat_w), half in the inner race and half in the sprags",
                 Unit::Watt.show(l.slip_heat_w, 3)
