@@ -362,7 +362,7 @@ pub(super) fn not_carried(torque_nm: f64, end_nm: f64) -> Option<String> {
 }
 
 /// Static point at `torque`, or at the curve's end if that comes first.
-fn at(curve: &WedgeCurve, torque: f64) -> StaticPoint {
+pub(super) fn at(curve: &WedgeCurve, torque: f64) -> StaticPoint {
     let last = curve.arc_end_n(curve.arc_count() - 1);
     curve.at_torque(torque).or_else(|| curve.at_normal(last)).unwrap_or(StaticPoint::UNLOADED)
 }

@@ -29,7 +29,7 @@ pub use overrun::{
     LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, lift_off_under,
     overrun_at, overrun_curve,
 };
-pub use pressed::largest_inner_pa;
+pub use pressed::largest_pressures_pa;
 pub use row::{BeyondEnd, Demand, Left, Margin, RESOLUTION, Rule, lowest_capacity};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};

@@ -3,7 +3,7 @@
 //! Pressure rises with the force on one arc. Behind a junction to a far larger radius it may fall while the torque rises; the outer contact
 //! has one radius.
 
-use super::load::{LOOKS, LoadState};
+use super::load::{LOOKS, LoadState, at};
 use crate::numeric::golden::top;
 use crate::wedge::StaticPoint;
 
@@ -47,7 +47,9 @@ pub(super) fn most_pressed(state: &LoadState, peak: &StaticPoint) -> Option<(usi
     tops.max_by(|a, b| a.1.hertz_inner_pa.total_cmp(&b.1.hertz_inner_pa))
 }
 
-/// Largest pressure p_0 of the inner contact up to the state `peak`, Pa.
-pub fn largest_inner_pa(state: &LoadState, peak: &StaticPoint) -> f64 {
-    most_pressed(state, peak).map_or(peak.hertz_inner_pa, |(_, p)| p.hertz_inner_pa)
+/// Largest pressures p_0 of inner and outer contact up to `torque_nm`, N m, or to the curve's end, Pa.
+pub fn largest_pressures_pa(state: &LoadState, torque_nm: f64) -> [f64; 2] {
+    let peak = at(&state.curve, torque_nm);
+    let inner = most_pressed(state, &peak).map_or(peak.hertz_inner_pa, |(_, p)| p.hertz_inner_pa);
+    [inner, peak.hertz_outer_pa]
 }

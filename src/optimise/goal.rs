@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::design::{Design, Limits, Objective};
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, Margin, When, largest_inner_pa, lift_off_rad_s, overrun_at,
+    LIFT_OFF_TO_RAD_S, LoadState, Margin, When, largest_pressures_pa, lift_off_rad_s, overrun_at,
 };
 
 const RPM_PER_RAD_S: f64 = 30.0 / PI;
@@ -104,9 +104,10 @@ pub(super) fn measures(
         }
         Objective::PeakPressure => {
             let torque = limits.peak_torque_nm.unwrap_or(1.0);
-            let (point, beyond) = at(state, torque);
+            let (_, beyond) = at(state, torque);
+            let [inner, outer] = largest_pressures_pa(state, torque);
             // Pressure grows with the root of the load; beyond the curve's end that goes on.
-            let even = [("inner", point.0), ("outer", point.1)]
+            let even = [("inner", inner), ("outer", outer)]
                 .map(|(place, p)| measure(format!("pressure:{place}"), -p * 1e-6 * beyond.sqrt()));
             // Where the file limits the pressure along the contacts, that is what is pressed; not known: worse than any that is.
             let along = rows.iter().filter(|m| m.limit.is_along());
@@ -118,27 +119,25 @@ pub(super) fn measures(
         }
         Objective::Windup => {
             let torque = limits.nominal_torque_nm.unwrap_or(1.0);
-            let (point, beyond) = at(state, torque);
-            vec![measure("windup".to_owned(), -point.2.to_degrees() * beyond)]
+            let (windup_rad, beyond) = at(state, torque);
+            vec![measure("windup".to_owned(), -windup_rad.to_degrees() * beyond)]
         }
         Objective::StiffnessCurve => target
             .iter()
             .flat_map(|&[torque, wanted]| {
-                let (point, beyond) = at(state, torque);
-                let off = point.2 * beyond / wanted - 1.0;
+                let (windup_rad, beyond) = at(state, torque);
+                let off = windup_rad * beyond / wanted - 1.0;
                 [measure(format!("softer:{torque}"), -off), measure(format!("stiffer:{torque}"), off)]
             })
             .collect(),
     }
 }
 
-/// (largest p_0 inner up to there, Pa, p_0 outer Pa, windup rad) at `torque`, or at the curve's end; and by what the torque lies beyond.
-fn at(state: &LoadState, torque: f64) -> ((f64, f64, f64), f64) {
+/// Windup, rad, at `torque`, or at the curve's end; and by what the torque lies beyond.
+fn at(state: &LoadState, torque: f64) -> (f64, f64) {
     let curve = &state.curve;
     let last = curve.arc_end_n(curve.arc_count() - 1);
     let end = curve.end_torque_nm();
-    let point = curve.at_torque(torque).or_else(|| curve.at_normal(last));
-    let point =
-        point.map_or((0.0, 0.0, 0.0), |p| (largest_inner_pa(state, &p), p.hertz_outer_pa, p.windup_rad));
-    (point, if torque > end && end > 0.0 { torque / end } else { 1.0 })
+    let windup_rad = curve.at_torque(torque).or_else(|| curve.at_normal(last)).map_or(0.0, |p| p.windup_rad);
+    (windup_rad, if torque > end && end > 0.0 { torque / end } else { 1.0 })
 }

@@ -136,19 +136,16 @@ fn doubt_sentence(found: &Identified, j: usize, doubt: Doubt) -> Option<String> 
     })
 }
 
-/// What is said of the unknown called `name`, which the data do not feel where it ended.
-fn silent(found: &Identified, name: &str) -> String {
-    let at = found.unknowns.iter().position(|u| u.name == name);
-    let bound = at.filter(|&j| {
-        let (u, before) = (&found.unknowns[j], found.before[j]);
-        (u.min..=u.max).contains(&before) && found.knowledge.estimates[j].value != before
-    });
-    let bound = bound.map_or(String::new(), |j| {
-        let (value, before) = (found.knowledge.estimates[j].value, found.before[j]);
+/// What is said of the unknown `j`, which the data do not feel where it ended.
+fn silent(found: &Identified, j: usize) -> String {
+    let (u, before, value) = (&found.unknowns[j], found.before[j], found.knowledge.estimates[j].value);
+    let beyond = if !(u.min..=u.max).contains(&before) || value == before {
+        String::new()
+    } else {
         let side = if value > before { "below" } else { "above" };
         format!("; {side} {} they are met less well, and nothing is to spare there", significant(value, 4))
-    });
-    format!("the data say nothing of {name}{bound}")
+    };
+    format!("the data say nothing of {}{beyond}", u.name)
 }
 
 /// Root of chi^2 over the degrees of freedom from which on standard errors are doubted: a choice, far beyond chance for ten rows.
@@ -233,17 +230,16 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
                 }
             }
             Tied::Blind { direction } => {
-                let moved: Vec<String> = direction
-                    .iter()
-                    .zip(&found.unknowns)
-                    .filter(|(d, _)| d.abs() > 0.01)
-                    .map(|(d, u)| format!("{} by {}", u.name, significant(d * (u.max - u.min), 3)))
-                    .collect();
+                let moved: Vec<usize> = (0..direction.len()).filter(|&j| direction[j].abs() > 0.01).collect();
+                let by = |&j: &usize| {
+                    let u = &found.unknowns[j];
+                    format!("{} by {}", u.name, significant(direction[j] * (u.max - u.min), 3))
+                };
                 match moved.as_slice() {
-                    [one] => silent(found, one.split(" by ").next().unwrap_or(one)),
+                    [one] => silent(found, *one),
                     _ => format!(
                         "the data cannot tell these apart: moving {} together changes no observation",
-                        moved.join(", ")
+                        moved.iter().map(by).collect::<Vec<_>>().join(", ")
                     ),
                 }
             }
